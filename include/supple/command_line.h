@@ -1,0 +1,37 @@
+#ifndef supple_command_line_h
+#define supple_command_line_h
+
+#include <string>
+#include <vector>
+
+namespace Supple
+{
+  /** What the user typed. */
+  struct CommandLine
+  {
+    enum class Action
+    {
+      run,
+      check,
+      print_parameters,
+      print_version,
+      print_help
+    };
+
+    Action                   action = Action::run;
+    std::string              scene;           ///< parameter file
+    std::vector<std::string> overrides;       ///< of --set
+    std::string              output;          ///< of --output, may be empty
+    std::string              format = "prm";  ///< of --print-parameters
+    bool                     quiet  = false;
+
+    /** @throws InputError */
+    static CommandLine
+    parse(int argc, char **argv);
+
+    static std::string
+    help();
+  };
+} // namespace Supple
+
+#endif

@@ -1,0 +1,53 @@
+#ifndef supple_constraints_h
+#define supple_constraints_h
+
+#include <supple/body.h>
+
+namespace Supple
+{
+  /** Which degrees of freedom are held: they keep the place and the velocity zero. */
+  class Constraints
+  {
+  public:
+    /** @throws InputError if a boundary or region selects nothing */
+    Constraints(const Body &body, const Parameters &parameters);
+
+    /** By local number of the degree of freedom, ghosts included. */
+    bool
+    holds(const unsigned int dof) const
+    {
+      return held[dof];
+    }
+
+    bool
+    holds_node(const unsigned int node) const
+    {
+      return held[3 * node] && held[3 * node + 1] && held[3 * node + 2];
+    }
+
+    /** The held degrees of freedom this process owns, ascending. */
+    const std::vector<unsigned int> &
+    owned() const
+    {
+      return held_owned;
+    }
+
+    /** Sets the held entries to zero. */
+    void
+    set_zero(Vector &vector) const;
+
+    unsigned int n_held; ///< degrees of freedom on all processes
+
+    /** How many of the six rigid motions remain possible. */
+    unsigned int n_free_rigid_motions;
+
+  private:
+    unsigned int
+    count_free_rigid_motions(const Body &body) const;
+
+    std::vector<bool>         held;
+    std::vector<unsigned int> held_owned;
+  };
+} // namespace Supple
+
+#endif

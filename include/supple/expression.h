@@ -1,0 +1,53 @@
+#ifndef supple_expression_h
+#define supple_expression_h
+
+#include <deal.II/base/function_parser.h>
+
+#include <memory>
+#include <string>
+
+namespace Supple
+{
+  /**
+   * A muParser expression of x, y, z [m] and t [s], with one or three components set apart by semicolons.
+   * Written wrongly it is refused here and not at its first use.
+   */
+  class Expression
+  {
+  public:
+    /**
+     * @param text         what the user wrote
+     * @param n_components 1 or 3
+     * @param origin       where it was written, for the message
+     * @throws InputError
+     */
+    Expression(const std::string &text, unsigned int n_components, const std::string &origin);
+
+    double
+    value(const dealii::Point<3> &point, double time, unsigned int component = 0) const;
+
+    dealii::Tensor<1, 3>
+    vector_value(const dealii::Point<3> &point, double time) const;
+
+    /** True for "0" and "0; 0; 0": nothing to evaluate. */
+    bool
+    is_zero() const
+    {
+      return zero;
+    }
+
+    bool
+    depends_on_time() const
+    {
+      return time_dependent;
+    }
+
+  private:
+    std::unique_ptr<dealii::FunctionParser<3>> function;
+    unsigned int                               n_components;
+    bool                                       zero;
+    bool                                       time_dependent;
+  };
+} // namespace Supple
+
+#endif

@@ -1,0 +1,54 @@
+#ifndef supple_frames_h
+#define supple_frames_h
+
+#include <supple/diagnostics.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Supple
+{
+  /** Frames of the moving body for ParaView: decides when one is due and writes it. */
+  class Frames
+  {
+  public:
+    /** @param folder of the results; solution.pvd goes there and VTU files into solution/ below it */
+    Frames(const Body &body, const OutputParameters &parameters, const std::string &folder);
+
+    /** Whether something has happened that should be seen. */
+    bool
+    due(const State &state, const Measurement &now) const;
+
+    /** Writes the state, unless it was written already. The rotations must be those of the state. */
+    void
+    write(const State &state, const Measurement &now);
+
+    unsigned int
+    n_written() const
+    {
+      return records.size();
+    }
+
+  private:
+    bool
+    has_moved(const Vector &displacement) const;
+
+    bool
+    volume_has_changed(const Measurement &now) const;
+
+    void
+    write_vtu(const State &state, const Measurement &now, const std::string &name);
+
+    const Body                                 &body;
+    const OutputParameters                     &parameters;
+    const std::string                           folder;
+    std::vector<std::pair<double, std::string>> records; ///< time and file of each frame
+    Measurement                                 last;    ///< when the last frame was written
+    Vector                                      last_displacement;
+    double                                      min_volume_ratio, max_volume_ratio; ///< of all frames
+    bool                                        inverted = false;                   ///< in any frame
+  };
+} // namespace Supple
+
+#endif

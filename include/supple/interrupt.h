@@ -1,0 +1,25 @@
+#ifndef supple_interrupt_h
+#define supple_interrupt_h
+
+#include <mpi.h>
+
+namespace Supple
+{
+  /** While it lives, Ctrl-C (SIGINT) and SIGTERM are noted and do not end the program. */
+  class InterruptGuard
+  {
+  public:
+    InterruptGuard();
+    ~InterruptGuard();
+
+    InterruptGuard(const InterruptGuard &) = delete;
+    InterruptGuard &
+    operator=(const InterruptGuard &) = delete;
+
+    /** Whether any process has been asked to stop; the same answer on all. */
+    bool
+    requested(MPI_Comm communicator) const;
+  };
+} // namespace Supple
+
+#endif

@@ -1,0 +1,91 @@
+#ifndef supple_simulation_h
+#define supple_simulation_h
+
+#include <supple/diagnostics.h>
+#include <supple/frames.h>
+#include <supple/probes.h>
+#include <supple/progress.h>
+#include <supple/tables.h>
+#include <supple/time_integrator.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+namespace Supple
+{
+  /** One scene, from its parameters to its results. */
+  class Simulation
+  {
+  public:
+    /**
+     * Builds all that the scene needs and validates it; writes nothing.
+     * @param folder of the results
+     * @param quiet  no words on the screen
+     * @throws InputError
+     */
+    Simulation(const Parameters &parameters, const std::string &folder, bool quiet, MPI_Comm communicator);
+
+    /** @throws ComputationError with the step and the time, after all files are complete */
+    void
+    run();
+
+    /** What would be run, as a table. */
+    void
+    print_description() const;
+
+  private:
+    void
+    create_initial_state();
+
+    void
+    open_output();
+
+    void
+    time_loop();
+
+    void
+    advance();
+
+    void
+    record(const StepReport &report);
+
+    /** Last frame and summary. */
+    void
+    finish(const std::string &status);
+
+    double
+    seconds_since_start() const;
+
+    const Parameters   parameters;
+    const std::string  folder;
+    const MPI_Comm     communicator;
+    const bool         talks;   ///< this process writes on the screen
+    const bool         writes;  ///< history or frames are wanted
+    Effort             effort;
+    const std::chrono::steady_clock::time_point start;
+
+    const Mesh                      mesh;
+    const Body                      body;
+    const Constraints               constraints;
+    const Loads                     loads;
+    const Probes                    probes;
+    ImplicitOperator                implicit_operator;
+    std::unique_ptr<LinearSolver>   solver;
+    State                           state;
+    std::unique_ptr<TimeIntegrator> integrator;
+    Diagnostics                     diagnostics;
+    Progress                        progress;
+    std::unique_ptr<CsvFile>        history;
+    std::unique_ptr<CsvFile>        probe_history;
+    std::unique_ptr<Frames>         frames;
+
+    unsigned int step = 0;
+    Measurement  now;
+    double       error_estimate = 0.; ///< sum of the local errors [m]
+    double       largest_motion = 0.; ///< largest displacement of a vertex so far [m]
+    double       setup_seconds  = 0.;
+  };
+} // namespace Supple
+
+#endif

@@ -1,0 +1,45 @@
+#ifndef supple_static_equilibrium_h
+#define supple_static_equilibrium_h
+
+#include <supple/time_integrator.h>
+
+namespace Supple
+{
+  /**
+   * Equilibrium f_int(u) = s f under the loads at time 1, with the load factor s growing in steps to 1.
+   *
+   * Each step is Newton's method with the operator K' of the present rotations. It is positive definite, so each
+   * correction goes downhill in the energy W(u) - s f.u of polar rotations, and a line search makes sure that
+   * it does not go too far. Linear elasticity needs one correction, and one operator for all steps.
+   */
+  class StaticEquilibrium : public TimeIntegrator
+  {
+  public:
+    StaticEquilibrium(const Model &model);
+
+    StepReport
+    advance(State &state, double load_factor, bool observed) override;
+
+    std::string
+    name() const override;
+
+  private:
+    /** s f - f_int(u), with the rotations updated to u; the held entries are the reactions with a minus sign. */
+    void
+    update_residual(const Vector &displacement, double load_factor);
+
+    /** W(u) - s f.u [J], with the rotations of the last update. */
+    double
+    energy(const Vector &displacement, double load_factor) const;
+
+    /** Adds as much of the correction as lowers the energy. */
+    void
+    add_correction(Vector &displacement, double load_factor);
+
+    bool   prepared = false;
+    double last_load_factor = 0.;
+    Vector residual, correction, free_residual;
+  };
+} // namespace Supple
+
+#endif

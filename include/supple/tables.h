@@ -1,0 +1,32 @@
+#ifndef supple_tables_h
+#define supple_tables_h
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace Supple
+{
+  /** A CSV file of numbers which is complete after every row. */
+  class CsvFile
+  {
+  public:
+    /** @throws WriteError if the file can't be written */
+    CsvFile(const std::string &file, const std::vector<std::string> &column_names);
+
+    /** @throws WriteError if the disk is full */
+    void
+    write_row(const std::vector<double> &values);
+
+  private:
+    const std::string file;
+    std::ofstream     stream;
+  };
+
+
+  /** Writes a text file aside and renames it, so that it is there as a whole or not at all. @throws WriteError */
+  void
+  write_whole_file(const std::string &file, const std::string &content);
+} // namespace Supple
+
+#endif

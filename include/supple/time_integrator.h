@@ -1,0 +1,87 @@
+#ifndef supple_time_integrator_h
+#define supple_time_integrator_h
+
+#include <supple/implicit_operator.h>
+#include <supple/linear_solver.h>
+#include <supple/loads.h>
+
+#include <memory>
+#include <string>
+
+namespace Supple
+{
+  /** What a step has to tell. */
+  struct StepReport
+  {
+    double       dt                = 0.; ///< [s]
+    unsigned int newton_iterations = 0;
+    unsigned int linear_iterations = 0;
+    double       local_error       = 0.; ///< estimate, largest over all vertices [m]
+    double       load_work         = 0.; ///< by the body force [J]
+
+    /**
+     * Energy the step took out of the motion or put into the springs [J]: what the elastic energy did not get of it
+     * is dissipated.
+     */
+    double expended = 0.;
+  };
+
+
+  /** What integrators work with. */
+  struct Model
+  {
+    const Body        &body;
+    const Constraints &constraints;
+    const Loads       &loads;
+    ImplicitOperator  &implicit_operator;
+    LinearSolver      &solver;
+    const Parameters  &parameters;
+    Effort            &effort;
+  };
+
+
+  /** Takes the body from one accepted state to the next. */
+  class TimeIntegrator
+  {
+  public:
+    virtual ~TimeIntegrator() = default;
+
+    /** Backward Euler, or the steps of a static problem. */
+    static std::unique_ptr<TimeIntegrator>
+    create(const Model &model, const Vector &displacement);
+
+    /**
+     * One step.
+     * @param state    displacement and, if the problem is dynamic, velocity; as before if the step fails
+     * @param time     at the end of the step [s]; the load factor of a static problem
+     * @param observed whether anybody asks for energies and reactions
+     * @throws ComputationError
+     */
+    virtual StepReport
+    advance(State &state, double time, bool observed) = 0;
+
+    virtual std::string
+    name() const = 0;
+
+    /** Forces of the clamps on the body at the end of an observed step [N]; zero where it is free. */
+    const Vector &
+    reactions() const
+    {
+      return reaction;
+    }
+
+  protected:
+    TimeIntegrator(const Model &model);
+
+    /** Keeps the held entries of a force and sets all others to zero. */
+    void
+    set_reactions(const Vector &force);
+
+    const Model model;
+
+  private:
+    Vector reaction;
+  };
+} // namespace Supple
+
+#endif

@@ -1,0 +1,60 @@
+#ifndef supple_vector_h
+#define supple_vector_h
+
+#include <deal.II/lac/la_parallel_block_vector.h>
+#include <deal.II/lac/la_parallel_vector.h>
+
+namespace Supple
+{
+  /** Three numbers per node; owned nodes first, then ghosts, which are valid only when asked for. */
+  using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+  /** Displacement (block 0) and velocity (block 1). */
+  using State = dealii::LinearAlgebra::distributed::BlockVector<double>;
+
+
+  /** While it lives, the ghost values of a vector are valid. On a single process it does nothing. */
+  class GhostValues
+  {
+  public:
+    explicit GhostValues(const Vector &vector)
+      : vector(vector)
+    {
+      if (vector.get_partitioner()->n_mpi_processes() > 1)
+        vector.update_ghost_values();
+    }
+
+    ~GhostValues()
+    {
+      if (vector.get_partitioner()->n_mpi_processes() > 1)
+        vector.zero_out_ghost_values();
+    }
+
+    GhostValues(const GhostValues &) = delete;
+    GhostValues &
+    operator=(const GhostValues &) = delete;
+
+    const double *
+    data() const
+    {
+      return vector.begin();
+    }
+
+  private:
+    const Vector &vector;
+  };
+
+
+  /** Calls @p add(double *) on a vector set to zero, whose ghost part may be written but means nothing. */
+  template <class Add>
+  void
+  sum_into(Vector &vector, const Add &add)
+  {
+    vector = 0.;
+    add(vector.begin());
+    if (vector.get_partitioner()->n_mpi_processes() > 1)
+      vector.zero_out_ghost_values();
+  }
+} // namespace Supple
+
+#endif

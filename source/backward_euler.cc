@@ -1,0 +1,371 @@
+#include <supple/backward_euler.h>
+
+#include <supple/compatibility.h>
+#include <supple/error.h>
+
+#include <deal.II/lac/solver_cg.h>
+
+#include <cmath>
+
+namespace Supple
+{
+  using namespace dealii;
+
+  namespace
+  {
+    struct MassProduct
+    {
+      const ImplicitOperator &A;
+
+      void
+      vmult(Vector &y, const Vector &x) const
+      {
+        A.mass_vmult(y, x);
+      }
+    };
+
+
+    struct MassDiagonal
+    {
+      const std::vector<double> &inverse;
+
+      void
+      vmult(Vector &y, const Vector &x) const
+      {
+        for (std::size_t node = 0; node < inverse.size(); ++node)
+          for (unsigned int i = 0; i < 3; ++i)
+            y.local_element(3 * node + i) = inverse[node] * x.local_element(3 * node + i);
+      }
+    };
+  } // namespace
+
+
+
+  BackwardEuler::ARKode::AdditionalData
+  BackwardEuler::settings(const Parameters &parameters)
+  {
+    const bool linear = parameters.corotation.rotation == RotationMethod::none;
+
+    ARKode::AdditionalData data;
+    data.initial_time                            = 0.;
+    data.final_time                              = 1e300; // each step sets its own stop time
+    data.initial_step_size                       = parameters.time.step;
+    data.output_period                           = 1e300;
+    data.minimum_step_size                       = 0.;
+    data.implicit_function_is_linear             = true;
+    data.implicit_function_is_time_independent   = linear;
+    data.mass_is_time_independent                = true;
+    return data;
+  }
+
+
+
+  BackwardEuler::BackwardEuler(const Model &model, const Vector &displacement)
+    : TimeIntegrator(model)
+    , ode(settings(model.parameters), model.body.mesh.communicator)
+  {
+    model.body.initialize(scratch);
+    model.body.initialize(force);
+    model.body.initialize(velocity_increment);
+
+    const auto &diagonal = model.implicit_operator.mass_matrix().diagonal;
+    for (unsigned int node = 0; node < model.body.n_owned; ++node)
+      inverse_mass.push_back(1. / diagonal[node]);
+
+    model.body.update_rotations(displacement, model.effort);
+    set_callbacks();
+  }
+
+
+
+  std::string
+  BackwardEuler::name() const
+  {
+    return "backward Euler (ARKode)";
+  }
+
+
+
+  template <class Action>
+  int
+  BackwardEuler::guarded(const Action &action)
+  {
+    if (failure)
+      return -1;
+    try
+      {
+        action();
+        return 0;
+      }
+    catch (...)
+      {
+        failure = std::current_exception();
+        return -1;
+      }
+  }
+
+
+
+  void
+  BackwardEuler::throw_what_failed()
+  {
+    if (failure)
+      std::rethrow_exception(failure);
+    if (!arkode_message.empty())
+      throw ComputationError("SUNDIALS says " + arkode_message);
+  }
+
+
+
+  void
+  BackwardEuler::set_callbacks()
+  {
+    ode.implicit_function = [this](const double time, const State &y, State &f) {
+      return guarded([&] {
+        f.block(0) = y.block(1);
+        net_force(time, y, f.block(1));
+      });
+    };
+
+    ode.mass_times_vector = [this](const double, const State &v, State &Mv) {
+      return guarded([&] {
+        Mv.block(0) = v.block(0);
+        model.implicit_operator.mass_vmult(Mv.block(1), v.block(1));
+      });
+    };
+
+    ode.solve_mass = [this](SUNDIALS::SundialsOperator<State> &,
+                            SUNDIALS::SundialsPreconditioner<State> &,
+                            State       &x,
+                            const State &b,
+                            const double) {
+      return guarded([&] {
+        x.block(0) = b.block(0);
+        solve_mass(x.block(1), b.block(1));
+      });
+    };
+
+    // ARKode wants it to be there, but the linear systems are solved without it.
+    ode.jacobian_times_vector =
+      [](const State &, State &, const double, const State &, const State &) { return -1; };
+
+    ode.jacobian_preconditioner_setup = [this](const double,
+                                               const State &y,
+                                               const State &,
+                                               const int,
+                                               int         &jacobian_is_current,
+                                               const double new_gamma) {
+      return guarded([&] {
+        gamma = new_gamma;
+        model.implicit_operator.assemble(gamma);
+        model.solver.prepare(y.block(0));
+        jacobian_is_current = 1;
+      });
+    };
+
+    ode.jacobian_preconditioner_solve = [this](const double,
+                                               const State &,
+                                               const State &,
+                                               const State &r,
+                                               State       &z,
+                                               const double,
+                                               const double,
+                                               const int) {
+      return guarded([&] { solve_eliminated(r, z); });
+    };
+
+    ode.solve_linearized_system = [this](SUNDIALS::SundialsOperator<State> &,
+                                         SUNDIALS::SundialsPreconditioner<State> &elimination,
+                                         State                                   &x,
+                                         const State                             &b,
+                                         const double) {
+      return guarded([&] { elimination.vmult(x, b); });
+    };
+
+    ode.output_step  = [this](const double, const State &, const unsigned int) { throw_what_failed(); };
+    ode.custom_setup = [this](void *memory) { set_options(memory); };
+  }
+
+
+
+  void
+  BackwardEuler::set_options(void *arkode_memory)
+  {
+    Compatibility::Real       one   = 1.;
+    const ARKodeButcherTable  table = ARKodeButcherTable_Create(1, 1, 0, &one, &one, &one, nullptr);
+    AssertThrow(ARKStepSetTables(arkode_memory, 1, 0, table, nullptr) == 0, ExcInternalError());
+    ARKodeButcherTable_Free(table);
+
+    ARKStepSetFixedStep(arkode_memory, model.parameters.time.step);
+    ARKStepSetMaxNumSteps(arkode_memory, -1);
+
+    // The default interpolant is of too high an order for this table and would spoil the results.
+    ARKStepSetInterpolantType(arkode_memory, ARK_INTERP_LAGRANGE);
+    ARKStepSetInterpolantDegree(arkode_memory, 1);
+
+    ARKStepSetPredictorMethod(arkode_memory, 0);
+
+    // The force at the end of the step follows from the solution of the linear system.
+    ARKStepSetDeduceImplicitRhs(arkode_memory, 1);
+    Compatibility::collect_arkode_errors(arkode_memory, arkode_message);
+  }
+
+
+
+  void
+  BackwardEuler::net_force(const double time, const State &y, Vector &net)
+  {
+    const DampingParameters &damping = model.parameters.damping;
+
+    // For fixed rotations the force is linear: f_int(u) + b K' v = f_int(u + b v).
+    if (damping.stiffness_factor > 0.)
+      {
+        scratch = y.block(0);
+        scratch.add(damping.stiffness_factor, y.block(1));
+        model.body.internal_force(net, scratch, model.effort);
+      }
+    else
+      model.body.internal_force(net, y.block(0), model.effort);
+    net.sadd(-1., 1., model.loads.force(time));
+
+    if (damping.mass_factor > 0.)
+      {
+        model.implicit_operator.mass_vmult(scratch, y.block(1));
+        net.add(-damping.mass_factor, scratch);
+      }
+    if (damping.viscous > 0.)
+      net.add(-damping.viscous, y.block(1));
+    model.constraints.set_zero(net);
+  }
+
+
+
+  void
+  BackwardEuler::solve_eliminated(const State &r, State &z)
+  {
+    model.implicit_operator.stiffness_vmult(scratch, r.block(0));
+    scratch.sadd(-gamma, 1., r.block(1));
+    model.constraints.set_zero(scratch);
+    linear_iterations += model.solver.solve(z.block(1), scratch);
+
+    velocity_increment = z.block(1);
+    z.block(0)         = r.block(0);
+    z.block(0).add(gamma, z.block(1));
+  }
+
+
+
+  void
+  BackwardEuler::solve_mass(Vector &x, const Vector &b)
+  {
+    const PhaseTimer timer(model.effort, Phase::solve);
+
+    x = velocity_increment;
+    SolverControl    control(1000, 1e-13 * b.l2_norm() + std::numeric_limits<double>::min());
+    SolverCG<Vector> cg(control);
+    cg.solve(MassProduct{model.implicit_operator}, x, b, MassDiagonal{inverse_mass});
+  }
+
+
+
+  StepReport
+  BackwardEuler::advance(State &state, const double time, const bool observed)
+  {
+    StepReport report;
+    report.dt         = model.parameters.time.step;
+    previous          = state;
+    linear_iterations = 0;
+    try
+      {
+        if (ode.get_arkode_memory() != nullptr)
+          ARKStepSetStopTime(ode.get_arkode_memory(), time);
+        ode.solve_ode_incrementally(state, time);
+        throw_what_failed();
+        if (!std::isfinite(state.l2_norm()))
+          throw ComputationError("the motion is not finite any more");
+      }
+    catch (...)
+      {
+        state = previous;
+        throw;
+      }
+    report.linear_iterations = linear_iterations;
+
+    // dt/2 |v1 - v0| estimates the local error dt^2/2 |u''| of u.
+    double jump = 0.;
+    for (unsigned int node = 0; node < model.body.n_owned; ++node)
+      {
+        double square = 0.;
+        for (unsigned int i = 0; i < 3; ++i)
+          square += std::pow(state.block(1).local_element(3 * node + i) -
+                               previous.block(1).local_element(3 * node + i),
+                             2);
+        jump = std::max(jump, square);
+      }
+    report.local_error =
+      0.5 * report.dt * std::sqrt(Utilities::MPI::max(jump, model.body.mesh.communicator));
+
+    if (observed)
+      observe(state, time, report);
+    model.body.update_rotations(state.block(0), model.effort);
+    return report;
+  }
+
+
+
+  /**
+   * Backward Euler with the rotations of the step gives, with the change d of a quantity over the step,
+   *   d(kinetic) + 1/2 dv.M dv + dt v1.D v1 + f_int(u1).du = f1.du,
+   * and all but the first term on the left is what the step expended.
+   */
+  void
+  BackwardEuler::observe(const State &state, const double time, StepReport &report)
+  {
+    const PhaseTimer         timer(model.effort, Phase::diagnostics);
+    const DampingParameters &damping = model.parameters.damping;
+    const Vector            &v       = state.block(1);
+    Vector                   du = state.block(0), dv = v;
+    du -= previous.block(0);
+    dv -= previous.block(1);
+
+    model.implicit_operator.mass_vmult(scratch, dv);
+    report.expended = 0.5 * (dv * scratch);
+
+    Effort uncounted; // these forces are for the eye alone
+    model.body.internal_force(force, state.block(0), uncounted);
+    report.expended += force * du;
+
+    // Reactions: M a + D v + f_int - f, on all nodes.
+    Vector inertia = dv;
+    inertia /= report.dt;
+    inertia.add(damping.mass_factor, v);
+    {
+      const GhostValues values(inertia);
+      sum_into(scratch, [&](double *sum) {
+        model.body.tetrahedra->add_mass_product(values.data(), sum);
+      });
+    }
+    force += scratch;
+    if (damping.any())
+      {
+        Vector damping_force = v;
+        damping_force *= damping.viscous;
+        model.implicit_operator.mass_vmult(scratch, v);
+        damping_force.add(damping.mass_factor, scratch);
+        {
+          const GhostValues values(v);
+          sum_into(scratch, [&](double *sum) {
+            model.body.tetrahedra->add_stiffness_product(values.data(), sum);
+          });
+        }
+        damping_force.add(damping.stiffness_factor, scratch);
+        force.add(damping.stiffness_factor, scratch);
+        report.expended += report.dt * (v * damping_force);
+      }
+    force -= model.loads.force(time);
+    set_reactions(force);
+
+    if (model.loads.has_body_force())
+      report.load_work = model.loads.body_force(time) * du;
+  }
+} // namespace Supple

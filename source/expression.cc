@@ -1,0 +1,82 @@
+#include <supple/expression.h>
+
+#include <supple/error.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
+#include <regex>
+#include <sstream>
+
+namespace Supple
+{
+  namespace
+  {
+    /** What is wrong, without deal.II's frame around it. */
+    std::string
+    reason(const dealii::ExceptionBase &exception)
+    {
+      std::ostringstream text;
+      exception.print_info(text);
+      std::smatch found;
+      const std::string all = text.str();
+      if (std::regex_search(all, found, std::regex("Message:\\s*(.*)")))
+        return found[1];
+      return dealii::Utilities::trim(all);
+    }
+  } // namespace
+
+
+
+  Expression::Expression(const std::string &text,
+                         const unsigned int n_components,
+                         const std::string &origin)
+    : n_components(n_components)
+  {
+    const auto components = dealii::Utilities::split_string_list(text, ';');
+    if (components.size() != n_components)
+      throw InputError(origin + ": found " + std::to_string(components.size()) +
+                       " expression(s); there must be " + std::to_string(n_components) +
+                       ", set apart by semicolons.");
+
+    zero = true;
+    for (const std::string &component : components)
+      zero = zero && std::regex_match(component, std::regex("[+-]?0*\\.?0*"));
+    time_dependent = std::regex_search(text, std::regex("\\bt\\b"));
+
+    const std::map<std::string, double> constants = {{"pi", dealii::numbers::PI}};
+    try
+      {
+        function = std::make_unique<dealii::FunctionParser<3>>(n_components);
+        function->initialize("x,y,z,t", components, constants, true);
+        for (unsigned int c = 0; c < n_components; ++c)
+          function->value(dealii::Point<3>(), c); // muParser reads the text at the first evaluation
+      }
+    catch (const dealii::ExceptionBase &exception)
+      {
+        throw InputError(origin + ": " + reason(exception) +
+                         "\nAn expression uses x, y, z, t, pi, numbers, + - * / ^, comparisons, && ||, "
+                         "if(condition, a, b) and functions such as sin, exp, sqrt, min, max.");
+      }
+  }
+
+
+
+  double
+  Expression::value(const dealii::Point<3> &point, const double time, const unsigned int component) const
+  {
+    function->set_time(time);
+    return function->value(point, component);
+  }
+
+
+
+  dealii::Tensor<1, 3>
+  Expression::vector_value(const dealii::Point<3> &point, const double time) const
+  {
+    dealii::Tensor<1, 3> result;
+    for (unsigned int c = 0; c < 3; ++c)
+      result[c] = value(point, time, c);
+    return result;
+  }
+} // namespace Supple

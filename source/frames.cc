@@ -1,0 +1,189 @@
+#include <supple/frames.h>
+
+#include <supple/tables.h>
+
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+#include <deal.II/fe/mapping_fe_field.h>
+#include <deal.II/numerics/data_out.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace Supple
+{
+  using namespace dealii;
+
+  Frames::Frames(const Body             &body,
+                 const OutputParameters &parameters,
+                 const std::string      &folder)
+    : body(body)
+    , parameters(parameters)
+    , folder(folder)
+  {
+    body.initialize(last_displacement);
+  }
+
+
+
+  bool
+  Frames::has_moved(const Vector &displacement) const
+  {
+    double farthest = 0.;
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      {
+        double square = 0.;
+        for (unsigned int i = 0; i < 3; ++i)
+          square += std::pow(displacement.local_element(3 * node + i) -
+                               last_displacement.local_element(3 * node + i),
+                             2);
+        farthest = std::max(farthest, square);
+      }
+    farthest = Utilities::MPI::max(farthest, body.mesh.communicator);
+    return std::sqrt(farthest) > parameters.motion * body.mesh.diameter();
+  }
+
+
+
+  bool
+  Frames::volume_has_changed(const Measurement &now) const
+  {
+    return now.max_volume_ratio > max_volume_ratio + parameters.volume_ratio_change ||
+           now.min_volume_ratio < min_volume_ratio - parameters.volume_ratio_change ||
+           (now.inverted > 0 && !inverted);
+  }
+
+
+
+  bool
+  Frames::due(const State &state, const Measurement &now) const
+  {
+    if (records.empty())
+      return true;
+    const double since_last = now.time - last.time;
+    switch (parameters.frames)
+      {
+        case OutputParameters::Frames::every:
+          return now.step % parameters.every == 0;
+        case OutputParameters::Frames::interval:
+          {
+            // The first step that reaches a multiple of the interval.
+            const auto passed = [&](const double time) {
+              return std::floor(time / parameters.interval * (1. + 1e-12));
+            };
+            return passed(now.time) > passed(now.time - now.dt);
+          }
+        case OutputParameters::Frames::adaptive:
+          return (parameters.longest_interval > 0. &&
+                  since_last >= parameters.longest_interval * (1. - 1e-12)) ||
+                 volume_has_changed(now) || has_moved(state.block(0));
+        default:
+          return false;
+      }
+  }
+
+
+
+  void
+  Frames::write(const State &state, const Measurement &now)
+  {
+    if (!records.empty() && now.step == last.step)
+      return;
+    const std::string name = "frame_" + Utilities::int_to_string(n_written(), 4);
+    write_vtu(state, now, name);
+
+    const bool        first    = records.empty();
+    const bool        parallel = Utilities::MPI::n_mpi_processes(body.mesh.communicator) > 1;
+    records.emplace_back(now.time, "solution/" + name + (parallel ? ".pvtu" : ".vtu"));
+    if (Utilities::MPI::this_mpi_process(body.mesh.communicator) == 0)
+      {
+        std::ostringstream record;
+        DataOutBase::write_pvd_record(record, records);
+        write_whole_file(folder + "/solution.pvd", record.str());
+      }
+
+    min_volume_ratio  = first ? now.min_volume_ratio : std::min(min_volume_ratio, now.min_volume_ratio);
+    max_volume_ratio  = first ? now.max_volume_ratio : std::max(max_volume_ratio, now.max_volume_ratio);
+    inverted          = inverted || now.inverted > 0;
+    last              = now;
+    last_displacement = state.block(0);
+  }
+
+
+
+  void
+  Frames::write_vtu(const State &state, const Measurement &now, const std::string &name)
+  {
+    DataOut<3> data;
+    data.attach_dof_handler(body.dof_handler);
+    DataOutBase::VtkFlags flags(now.time, now.step);
+    flags.compression_level = DataOutBase::VtkFlags::best_speed;
+    data.set_flags(flags);
+
+    const std::vector<DataComponentInterpretation::DataComponentInterpretation> vector_valued(
+      3, DataComponentInterpretation::component_is_part_of_vector);
+    const char *const names[] = {"displacement", "velocity"};
+    for (unsigned int b = 0; b < state.n_blocks(); ++b)
+      {
+        state.block(b).update_ghost_values();
+        data.add_data_vector(state.block(b),
+                             std::vector<std::string>(3, names[b]),
+                             DataOut<3>::type_dof_data,
+                             vector_valued);
+      }
+
+    const std::vector<CellState> states   = body.tetrahedra->states(state.block(0).begin());
+    const unsigned int           n_active = body.mesh.triangulation.n_active_cells();
+    dealii::Vector<float> volume_ratio(n_active), von_mises(n_active), angle(n_active),
+      material(n_active);
+    for (std::size_t c = 0; c < states.size(); ++c)
+      {
+        const unsigned int cell = body.active_cell[c];
+        volume_ratio[cell]      = states[c].volume_ratio;
+        von_mises[cell]         = states[c].von_mises_stress;
+        angle[cell]             = states[c].rotation_angle;
+      }
+    for (const auto &cell : body.mesh.triangulation.active_cell_iterators())
+      material[cell->active_cell_index()] = cell->material_id();
+    data.add_data_vector(volume_ratio, "volume_ratio", DataOut<3>::type_cell_data);
+    data.add_data_vector(von_mises, "von_mises_stress", DataOut<3>::type_cell_data);
+    data.add_data_vector(angle, "rotation_angle", DataOut<3>::type_cell_data);
+    data.add_data_vector(material, "material", DataOut<3>::type_cell_data);
+
+    // The deformed body: the mapping wants positions, not displacements.
+    Vector deformed;
+    body.initialize(deformed);
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      for (unsigned int i = 0; i < 3; ++i)
+        deformed.local_element(3 * node + i) =
+          body.positions[node][i] + state.block(0).local_element(3 * node + i);
+    deformed.update_ghost_values();
+    const MappingFEField<3, 3, Vector> mapping(body.dof_handler, deformed);
+    data.build_patches(mapping);
+    for (unsigned int b = 0; b < state.n_blocks(); ++b)
+      state.block(b).zero_out_ghost_values();
+
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(body.mesh.communicator);
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(body.mesh.communicator);
+    const auto         piece   = [&](const unsigned int r) {
+      return n_ranks == 1 ? name + ".vtu" : name + "." + std::to_string(r) + ".vtu";
+    };
+    std::ostringstream content;
+    data.write_vtu(content);
+    write_whole_file(folder + "/solution/" + piece(rank), content.str());
+    if (n_ranks > 1)
+      {
+        MPI_Barrier(body.mesh.communicator); // the record names no file that is not there
+        std::vector<std::string> pieces;
+        for (unsigned int r = 0; r < n_ranks; ++r)
+          pieces.push_back(piece(r));
+        std::ostringstream record;
+        data.write_pvtu_record(record, pieces);
+        if (rank == 0)
+          write_whole_file(folder + "/solution/" + name + ".pvtu", record.str());
+      }
+  }
+} // namespace Supple

@@ -1,0 +1,146 @@
+#include <supple/implicit_operator.h>
+
+#include <algorithm>
+
+namespace Supple
+{
+  ImplicitOperator::ImplicitOperator(const Body        &body,
+                                     const Constraints &constraints,
+                                     const Parameters  &parameters,
+                                     Effort            &effort)
+    : body(body)
+    , constraints(constraints)
+    , damping(parameters.damping)
+    , effort(effort)
+    , pattern(make_pattern())
+    , A(pattern)
+  {
+    body.tetrahedra->connect(pattern);
+    find_masked_entries();
+    if (parameters.time.problem == TimeParameters::Problem::dynamic)
+      {
+        M = std::make_unique<SymmetricScalarMatrix>(pattern);
+        body.tetrahedra->add_mass(*M);
+      }
+  }
+
+
+
+  /** A node that is held in all directions is coupled to no other. */
+  SymmetricPattern
+  ImplicitOperator::make_pattern() const
+  {
+    std::vector<std::vector<std::uint32_t>> columns(body.n_local);
+    for (const auto &nodes : body.cell_nodes)
+      for (const unsigned int row : nodes)
+        for (const unsigned int column : nodes)
+          if (column < row && column < body.n_owned && !constraints.holds_node(row) &&
+              !constraints.holds_node(column))
+            columns[row].push_back(column);
+
+    SymmetricPattern pattern;
+    pattern.n_owned = body.n_owned;
+    pattern.n_local = body.n_local;
+    pattern.row_start.push_back(0);
+    for (auto &row : columns)
+      {
+        std::sort(row.begin(), row.end());
+        row.erase(std::unique(row.begin(), row.end()), row.end());
+        pattern.column.insert(pattern.column.end(), row.begin(), row.end());
+        pattern.row_start.push_back(pattern.column.size());
+      }
+    return pattern;
+  }
+
+
+
+  void
+  ImplicitOperator::find_masked_entries()
+  {
+    for (const unsigned int dof : constraints.owned())
+      {
+        const std::size_t node = dof / 3, i = dof % 3;
+        for (std::size_t j = 0; j < 3; ++j)
+          if (j != i)
+            {
+              masked_diagonal.push_back(9 * node + 3 * i + j);
+              masked_diagonal.push_back(9 * node + 3 * j + i);
+            }
+      }
+    for (std::size_t row = 0; row < pattern.n_local; ++row)
+      for (std::size_t k = pattern.row_start[row]; k < pattern.row_start[row + 1]; ++k)
+        for (std::size_t i = 0; i < 3; ++i)
+          for (std::size_t j = 0; j < 3; ++j)
+            if (constraints.holds(3 * row + i) || constraints.holds(3 * pattern.column[k] + j))
+              masked_lower.push_back(9 * k + 3 * i + j);
+  }
+
+
+
+  void
+  ImplicitOperator::assemble(const double mass_factor,
+                             const double stiffness_factor,
+                             const double diagonal_term)
+  {
+    const PhaseTimer timer(effort, Phase::assembly);
+    ++effort.assemblies;
+
+    A.set_zero();
+    body.tetrahedra->add_tangent(mass_factor, stiffness_factor, A);
+    if (diagonal_term != 0.)
+      for (std::size_t node = 0; node < pattern.n_owned; ++node)
+        for (unsigned int i = 0; i < 3; ++i)
+          A.diagonal[9 * node + 4 * i] += diagonal_term;
+    for (const std::size_t position : masked_diagonal)
+      A.diagonal[position] = 0.;
+    for (const std::size_t position : masked_lower)
+      A.lower[position] = 0.;
+  }
+
+
+
+  void
+  ImplicitOperator::assemble(const double gamma)
+  {
+    assemble(1. + gamma * damping.mass_factor,
+             gamma * gamma + gamma * damping.stiffness_factor,
+             gamma * damping.viscous);
+  }
+
+
+
+  void
+  ImplicitOperator::assemble_stiffness()
+  {
+    assemble(0., 1., 0.);
+  }
+
+
+
+  void
+  ImplicitOperator::vmult(Vector &y, const Vector &x) const
+  {
+    const GhostValues values(x);
+    A.vmult(y.begin(), values.data());
+  }
+
+
+
+  void
+  ImplicitOperator::mass_vmult(Vector &y, const Vector &x) const
+  {
+    const GhostValues values(x);
+    M->vmult(y.begin(), values.data());
+    constraints.set_zero(y);
+  }
+
+
+
+  void
+  ImplicitOperator::stiffness_vmult(Vector &y, const Vector &x) const
+  {
+    const GhostValues values(x);
+    sum_into(y, [&](double *sum) { body.tetrahedra->add_stiffness_product(values.data(), sum); });
+    constraints.set_zero(y);
+  }
+} // namespace Supple

@@ -1,0 +1,130 @@
+#include <supple/linear_solver.h>
+
+#include <supple/error.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+
+namespace Supple
+{
+  using Method = SolverParameters::Method;
+
+  namespace
+  {
+    // Where one solver overtakes the next, measured on the bar (benchmarks/bar).
+    constexpr unsigned int largest_for_ldlt    = 1500;  // degrees of freedom
+    constexpr unsigned int largest_for_cholmod = 25000; // degrees of freedom
+
+    Method
+    choose(const ImplicitOperator &A, std::string &reason)
+    {
+      const unsigned int n_dofs  = A.body.dof_handler.n_dofs();
+      const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(A.body.mesh.communicator);
+      const std::string  size    = std::to_string(n_dofs) + " degrees of freedom";
+      if (n_ranks > 1)
+        {
+          // ML fails where a process has no rows
+          const bool all_own = dealii::Utilities::MPI::min(A.body.n_owned, A.body.mesh.communicator) > 0;
+          reason = std::to_string(n_ranks) + " processes" +
+                   (all_own ? "" : ", some of which own no vertex");
+          return all_own ? Method::cg_ml : Method::cg_jacobi;
+        }
+      if (n_dofs <= largest_for_ldlt)
+        {
+          reason = size + ", at most " + std::to_string(largest_for_ldlt);
+          return Method::ldlt;
+        }
+      if (n_dofs <= largest_for_cholmod)
+        {
+          reason = size + ", at most " + std::to_string(largest_for_cholmod);
+          return Method::cholmod;
+        }
+      reason = size + ", more than " + std::to_string(largest_for_cholmod);
+      return Method::cg_ml;
+    }
+  } // namespace
+
+
+
+  LinearSolver::LinearSolver(const ImplicitOperator &A,
+                             const SolverParameters &parameters,
+                             Effort                 &effort)
+    : A(A)
+    , parameters(parameters)
+    , effort(effort)
+  {
+    A.body.initialize(residual);
+  }
+
+
+
+  std::unique_ptr<LinearSolver>
+  LinearSolver::create(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort)
+  {
+    std::string reason = "asked for";
+    Method      method = parameters.method;
+    if (method == Method::automatic)
+      method = choose(A, reason);
+
+    const bool direct = method == Method::ldlt || method == Method::cholmod;
+    if (direct && dealii::Utilities::MPI::n_mpi_processes(A.body.mesh.communicator) > 1)
+      throw InputError("Solver/Method: ldlt and cholmod work on one process; on several take cg-ml or auto.");
+
+    std::unique_ptr<LinearSolver> solver;
+    switch (method)
+      {
+        case Method::ldlt:
+          solver = make_ldlt_solver(A, parameters, effort);
+          break;
+        case Method::cholmod:
+          solver = make_cholmod_solver(A, parameters, effort);
+          break;
+        case Method::cg_jacobi:
+          solver = make_cg_jacobi_solver(A, parameters, effort);
+          break;
+        default:
+          solver = make_cg_ml_solver(A, parameters, effort);
+      }
+    solver->reason = reason;
+    return solver;
+  }
+
+
+
+  void
+  LinearSolver::prepare(const Vector &displacement)
+  {
+    const PhaseTimer timer(effort, Phase::solver_setup);
+    do_prepare(displacement);
+  }
+
+
+
+  unsigned int
+  LinearSolver::solve(Vector &x, const Vector &b)
+  {
+    const PhaseTimer timer(effort, Phase::solve);
+
+    const double size = b.l2_norm();
+    if (!std::isfinite(size))
+      throw ComputationError("the forces are not finite numbers");
+    if (size == 0.)
+      {
+        x = 0.;
+        return 0;
+      }
+    const unsigned int n_iterations = do_solve(x, b);
+
+    A.vmult(residual, x);
+    residual.sadd(-1., 1., b);
+    const double relative = residual.l2_norm() / size;
+    if (!std::isfinite(relative))
+      throw ComputationError("the linear solver " + name() + " gave no finite numbers");
+
+    ++effort.solves;
+    effort.linear_iterations += n_iterations;
+    effort.max_relative_residual = std::max(effort.max_relative_residual, relative);
+    return n_iterations;
+  }
+} // namespace Supple

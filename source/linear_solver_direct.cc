@@ -1,0 +1,138 @@
+#include <supple/error.h>
+#include <supple/linear_solver.h>
+
+#include <Eigen/CholmodSupport>
+#include <Eigen/SparseCholesky>
+
+namespace Supple
+{
+  namespace
+  {
+    using SparseMatrix = Eigen::SparseMatrix<double>;
+
+    void
+    adjust(Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper> &)
+    {}
+
+    /** One ordering tried, the one that was best for meshes of tetrahedra. */
+    void
+    adjust(Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> &factorization)
+    {
+      factorization.cholmod().nmethods           = 1;
+      factorization.cholmod().method[0].ordering = CHOLMOD_AMD;
+      factorization.cholmod().postorder          = 1;
+      factorization.cholmod().print              = 0;
+    }
+
+
+    /**
+     * A factorization on one process. The rows of A below the diagonal are, read by columns, the upper triangle
+     * that Eigen wants.
+     */
+    template <class Factorization>
+    class DirectSolver : public LinearSolver
+    {
+    public:
+      DirectSolver(const ImplicitOperator &A,
+                   const SolverParameters &parameters,
+                   Effort                 &effort,
+                   const std::string      &name)
+        : LinearSolver(A, parameters, effort)
+        , solver_name(name)
+      {
+        make_pattern();
+        adjust(factorization);
+        factorization.analyzePattern(matrix);
+      }
+
+      std::string
+      name() const override
+      {
+        return solver_name;
+      }
+
+    private:
+      void
+      make_pattern()
+      {
+        const SymmetricPattern &pattern = A.matrix().pattern;
+        const std::size_t       n       = 3 * static_cast<std::size_t>(pattern.n_owned);
+        matrix.resize(n, n);
+        matrix.resizeNonZeros(9 * pattern.n_entries() + 6 * pattern.n_owned);
+
+        int  end       = 0;
+        auto row_index = matrix.innerIndexPtr();
+        for (unsigned int i = 0; i < pattern.n_owned; ++i)
+          for (unsigned int a = 0; a < 3; ++a)
+            {
+              matrix.outerIndexPtr()[3 * i + a] = end;
+              for (std::size_t k = pattern.row_start[i]; k < pattern.row_start[i + 1]; ++k)
+                for (unsigned int b = 0; b < 3; ++b)
+                  row_index[end++] = 3 * pattern.column[k] + b;
+              for (unsigned int b = 0; b <= a; ++b)
+                row_index[end++] = 3 * i + b;
+            }
+        matrix.outerIndexPtr()[n] = end;
+        copy_values();
+      }
+
+      void
+      copy_values()
+      {
+        const SymmetricBlockMatrix &blocks  = A.matrix();
+        const SymmetricPattern     &pattern = blocks.pattern;
+
+        double *value = matrix.valuePtr();
+        for (std::size_t i = 0; i < pattern.n_owned; ++i)
+          for (unsigned int a = 0; a < 3; ++a)
+            {
+              for (std::size_t k = pattern.row_start[i]; k < pattern.row_start[i + 1]; ++k)
+                for (unsigned int b = 0; b < 3; ++b)
+                  *value++ = blocks.lower[9 * k + 3 * a + b];
+              for (unsigned int b = 0; b <= a; ++b)
+                *value++ = blocks.diagonal[9 * i + 3 * a + b];
+            }
+      }
+
+      void
+      do_prepare(const Vector &) override
+      {
+        copy_values();
+        factorization.factorize(matrix);
+        ++effort.factorizations;
+        if (factorization.info() != Eigen::Success)
+          throw ComputationError("the matrix is not positive definite (" + solver_name + ")");
+      }
+
+      unsigned int
+      do_solve(Vector &x, const Vector &b) override
+      {
+        Eigen::Map<Eigen::VectorXd>(x.begin(), x.size()) =
+          factorization.solve(Eigen::Map<const Eigen::VectorXd>(b.begin(), b.size()));
+        return 0;
+      }
+
+      const std::string solver_name;
+      SparseMatrix      matrix;
+      Factorization     factorization;
+    };
+  } // namespace
+
+
+
+  std::unique_ptr<LinearSolver>
+  make_ldlt_solver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort)
+  {
+    return std::make_unique<DirectSolver<Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper>>>(
+      A, parameters, effort, "ldlt");
+  }
+
+
+
+  std::unique_ptr<LinearSolver>
+  make_cholmod_solver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort)
+  {
+    return std::make_unique<DirectSolver<Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper>>>(
+      A, parameters, effort, "cholmod");
+  }
+} // namespace Supple

@@ -1,0 +1,90 @@
+/**
+ * Supple: soft elastic bodies in motion.
+ *
+ *   .prm -> Parameters -> Mesh -> Body -> ImplicitOperator -> TimeIntegrator -> Diagnostics -> Frames, CSV, summary
+ */
+
+#include <supple/command_line.h>
+#include <supple/error.h>
+#include <supple/simulation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+
+namespace
+{
+  void
+  execute(const Supple::CommandLine &line, const bool root)
+  {
+    using Action = Supple::CommandLine::Action;
+    switch (line.action)
+      {
+        case Action::print_help:
+          if (root)
+            std::cout << Supple::CommandLine::help();
+          return;
+        case Action::print_version:
+          if (root)
+            std::cout << "supple " << SUPPLE_VERSION << std::endl;
+          return;
+        case Action::print_parameters:
+          if (root)
+            Supple::Parameters::print_reference(std::cout, line.format);
+          return;
+        case Action::check:
+        case Action::run:
+          {
+            const auto  parameters = Supple::Parameters::read(line.scene, line.overrides);
+            std::string folder     = "output/" + parameters.scene_name;
+            if (!parameters.output.folder.empty())
+              folder = parameters.output.folder;
+            if (!line.output.empty())
+              folder = line.output;
+
+            Supple::Simulation simulation(parameters, folder, line.quiet, MPI_COMM_WORLD);
+            if (line.action == Action::run)
+              simulation.run();
+            else
+              simulation.print_description();
+          }
+      }
+  }
+} // namespace
+
+
+int
+main(int argc, char **argv)
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+
+  const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  const auto fail = [root](const std::exception &exception, const int exit_status) {
+    if (root)
+      std::cerr << "supple: " << exception.what() << std::endl;
+    return exit_status;
+  };
+  try
+    {
+      execute(Supple::CommandLine::parse(argc, argv), root);
+      return 0;
+    }
+  catch (const Supple::InputError &error)
+    {
+      return fail(error, 1);
+    }
+  catch (const Supple::ComputationError &error)
+    {
+      return fail(error, 2);
+    }
+  catch (const Supple::InterruptedError &error)
+    {
+      return fail(error, 2);
+    }
+  catch (const std::exception &error) // perhaps on this process alone: the others must not wait for it
+    {
+      std::cerr << "supple: " << error.what() << std::endl;
+      MPI_Abort(MPI_COMM_WORLD, 2);
+      return 2;
+    }
+}

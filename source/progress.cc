@@ -1,0 +1,68 @@
+#include <supple/progress.h>
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <iostream>
+
+namespace Supple
+{
+  std::string
+  readable_duration(const double seconds)
+  {
+    char text[64];
+    if (seconds < 60.)
+      std::snprintf(text, sizeof(text), "%.1f s", seconds);
+    else if (seconds < 3600.)
+      std::snprintf(text, sizeof(text), "%d min %02d s", int(seconds) / 60, int(seconds) % 60);
+    else
+      std::snprintf(text, sizeof(text), "%d h %02d min", int(seconds) / 3600, int(seconds) / 60 % 60);
+    return text;
+  }
+
+
+
+  Progress::Progress(const unsigned int n_steps, const bool wanted)
+    : n_steps(n_steps)
+    , active(wanted && isatty(STDOUT_FILENO))
+    , start(Clock::now())
+    , last(start)
+  {}
+
+
+
+  void
+  Progress::update(const unsigned int step)
+  {
+    if (!active)
+      return;
+    const auto now = Clock::now();
+    if (now - last < std::chrono::milliseconds(200) && step < n_steps)
+      return;
+    last = now;
+
+    const double seconds = std::chrono::duration<double>(now - start).count();
+    const double rate    = step / seconds;
+    char         text[128];
+    std::snprintf(text,
+                  sizeof(text),
+                  "\r%3.0f %%  step %u of %u  %.3g steps/s  %s left\033[K",
+                  100. * step / n_steps,
+                  step,
+                  n_steps,
+                  rate,
+                  readable_duration((n_steps - step) / rate).c_str());
+    std::cout << text << std::flush;
+    shown = true;
+  }
+
+
+
+  void
+  Progress::clear()
+  {
+    if (shown)
+      std::cout << "\r\033[K" << std::flush;
+    shown = false;
+  }
+} // namespace Supple

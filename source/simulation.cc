@@ -1,0 +1,293 @@
+#include <supple/error.h>
+#include <supple/expression.h>
+#include <supple/interrupt.h>
+#include <supple/simulation.h>
+#include <supple/summary.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+
+namespace Supple
+{
+  using namespace dealii;
+
+  Simulation::Simulation(const Parameters  &parameters,
+                         const std::string &folder,
+                         const bool         quiet,
+                         const MPI_Comm     communicator)
+    : parameters(parameters)
+    , folder(folder)
+    , communicator(communicator)
+    , talks(!quiet && Utilities::MPI::this_mpi_process(communicator) == 0)
+    , writes(parameters.output.history || parameters.output.frames != OutputParameters::Frames::none)
+    , start(std::chrono::steady_clock::now())
+    , mesh(parameters.mesh, communicator)
+    , body(mesh, parameters.material, parameters.corotation.rotation)
+    , constraints(body, parameters)
+    , loads(body, parameters)
+    , probes(body, parameters)
+    , implicit_operator(body, constraints, parameters, effort)
+    , solver(LinearSolver::create(implicit_operator, parameters.solver, effort))
+    , diagnostics(body, loads, parameters.time.problem == TimeParameters::Problem::stationary)
+    , progress(parameters.time.n_steps, talks)
+  {
+    if (parameters.time.problem == TimeParameters::Problem::stationary &&
+        constraints.n_free_rigid_motions > 0)
+      throw InputError("A static scene needs a body that is held: " +
+                       std::to_string(constraints.n_free_rigid_motions) +
+                       " of its six rigid motions are free, so that the stiffness is singular. Hold a boundary or a "
+                       "region (subsection Constraints), or make the problem dynamic.");
+    create_initial_state();
+    const Model model{
+      body, constraints, loads, implicit_operator, *solver, this->parameters, effort};
+    integrator    = TimeIntegrator::create(model, state.block(0));
+    setup_seconds = seconds_since_start();
+  }
+
+
+
+  double
+  Simulation::seconds_since_start() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+
+
+  /** A static problem has no velocity, so its state has one block only. */
+  void
+  Simulation::create_initial_state()
+  {
+    const bool stationary = parameters.time.problem == TimeParameters::Problem::stationary;
+    state.reinit(stationary ? 1 : 2);
+    for (unsigned int b = 0; b < state.n_blocks(); ++b)
+      body.initialize(state.block(b));
+    state.collect_sizes();
+
+    const std::array<std::pair<const char *, std::string>, 2> starts = {
+      {{"Start/Displacement", parameters.start.displacement},
+       {"Start/Velocity", parameters.start.velocity}}};
+    for (unsigned int b = 0; b < state.n_blocks(); ++b)
+      {
+        const Expression expression(starts[b].second, 3, parameters.origin(starts[b].first));
+        if (expression.is_zero())
+          continue;
+        for (unsigned int node = 0; node < body.n_owned; ++node)
+          for (unsigned int i = 0; i < 3; ++i)
+            state.block(b).local_element(3 * node + i) = expression.value(body.position(node), 0., i);
+        constraints.set_zero(state.block(b));
+        if (!std::isfinite(state.block(b).l2_norm()))
+          throw InputError(parameters.origin(starts[b].first) +
+                           ": it is not a finite number at every vertex.");
+      }
+  }
+
+
+
+  void
+  Simulation::print_description() const
+  {
+    if (!talks)
+      return;
+    const auto line = [](const std::string &name, const std::string &value) {
+      std::cout << "  " << name << std::string(name.size() < 12 ? 12 - name.size() : 1, ' ') << value
+                << '\n';
+    };
+    std::ostringstream time;
+    time << integrator->name() << ", " << parameters.time.n_steps;
+    if (parameters.time.problem == TimeParameters::Problem::dynamic)
+      time << " steps of " << parameters.time.step << " s";
+    else
+      time << " load steps";
+    const std::array<const char *, 3> rotations = {
+      {"linear elasticity", "corotational, Gram-Schmidt", "corotational, polar"}};
+    std::ostringstream volume;
+    volume << mesh.volume;
+
+    std::cout << "Supple " << SUPPLE_VERSION << ", scene " << parameters.scene_name << '\n';
+    line("body", std::to_string(mesh.n_cells) + " tetrahedra, " + std::to_string(mesh.n_vertices) +
+                   " vertices in " + mesh.extent() + " m, " + volume.str() + " m^3");
+    line("unknowns", std::to_string(body.dof_handler.n_dofs()) + ", of which " +
+                       std::to_string(constraints.n_held) + " are held; " +
+                       std::to_string(Utilities::MPI::n_mpi_processes(communicator)) + " process(es)");
+    line("model", rotations[static_cast<unsigned int>(body.rotation)]);
+    line("time", time.str());
+    line("solver", solver->name() + " (" + solver->reason + ")");
+    for (const std::string &text : probes.descriptions())
+      line("probe", text);
+    std::cout << std::flush;
+  }
+
+
+
+  void
+  Simulation::open_output()
+  {
+    const bool  root = Utilities::MPI::this_mpi_process(communicator) == 0;
+    std::string problem;
+    if (root)
+      try
+        {
+          namespace fs = std::filesystem;
+          fs::create_directories(fs::path(folder) / "solution");
+          for (const char *name : {"solution.pvd", "history.csv", "probes.csv", "summary.json"})
+            fs::remove(fs::path(folder) / name);
+          for (const auto &entry : fs::directory_iterator(fs::path(folder) / "solution"))
+            if (entry.path().filename().string().rfind("frame_", 0) == 0)
+              fs::remove(entry.path()); // of an earlier run
+          std::ostringstream used;
+          parameters.print(used);
+          write_whole_file(folder + "/parameters.prm", used.str());
+          if (parameters.output.history)
+            {
+              history = std::make_unique<CsvFile>(folder + "/history.csv", Measurement::column_names());
+              if (!probes.empty())
+                probe_history =
+                  std::make_unique<CsvFile>(folder + "/probes.csv", probes.column_names());
+            }
+        }
+      catch (const std::exception &exception)
+        {
+          problem = "The output folder " + folder + " can't be written (" + exception.what() +
+                    "). Name another one with --output.";
+        }
+    problem = Utilities::MPI::broadcast(communicator, problem);
+    if (!problem.empty())
+      throw InputError(problem);
+    if (parameters.output.frames != OutputParameters::Frames::none)
+      frames = std::make_unique<Frames>(body, parameters.output, folder);
+  }
+
+
+
+  void
+  Simulation::run()
+  {
+    print_description();
+    open_output();
+    try
+      {
+        record(StepReport());
+        time_loop();
+      }
+    catch (const ComputationError &error)
+      {
+        progress.clear();
+        std::ostringstream text;
+        text << "Step " << step + 1 << " (time " << now.time << " to " << now.time + parameters.time.step
+             << ") failed: " << error.what() << ". The results up to time " << now.time << " are in "
+             << folder << ".";
+        finish("failed: " + text.str());
+        throw ComputationError(text.str());
+      }
+  }
+
+
+
+  void
+  Simulation::time_loop()
+  {
+    const InterruptGuard interrupt;
+    while (step < parameters.time.n_steps)
+      {
+        advance();
+        progress.update(step);
+        if (step < parameters.time.n_steps && interrupt.requested(communicator))
+          {
+            progress.clear();
+            finish("interrupted");
+            throw InterruptedError("Interrupted after step " + std::to_string(step) +
+                                   "; the results so far are in " + folder + ".");
+          }
+      }
+    progress.clear();
+    finish("done");
+  }
+
+
+
+  void
+  Simulation::advance()
+  {
+    const double time = parameters.time.problem == TimeParameters::Problem::dynamic ?
+                          (step + 1) * parameters.time.step :
+                          (step + 1.) / parameters.time.n_steps;
+
+    const StepReport report = integrator->advance(state, time, writes);
+    ++step;
+    now.step = step;
+    now.time = time;
+    error_estimate += report.local_error;
+    record(report);
+  }
+
+
+
+  void
+  Simulation::record(const StepReport &report)
+  {
+    if (!writes)
+      return;
+    {
+      const PhaseTimer timer(effort, Phase::diagnostics);
+      now = diagnostics.measure(step, now.time, seconds_since_start() - setup_seconds, state, report);
+      largest_motion = std::max(largest_motion, state.block(0).linfty_norm());
+    }
+    const PhaseTimer timer(effort, Phase::output);
+    if (history)
+      history->write_row(now.row());
+    if (parameters.output.history && !probes.empty())
+      {
+        std::vector<double> row = {double(step), now.time};
+        const auto          values = probes.values(state, integrator->reactions());
+        row.insert(row.end(), values.begin(), values.end());
+        if (probe_history)
+          probe_history->write_row(row);
+      }
+    if (frames && frames->due(state, now))
+      frames->write(state, now);
+  }
+
+
+
+  void
+  Simulation::finish(const std::string &status)
+  {
+    if (frames)
+      {
+        const PhaseTimer timer(effort, Phase::output);
+        frames->write(state, now);
+      }
+    largest_motion = std::max(largest_motion, state.block(0).linfty_norm());
+
+    Summary summary;
+    summary.status         = status;
+    summary.integrator     = integrator->name();
+    summary.steps          = step;
+    summary.setup_seconds  = setup_seconds;
+    summary.run_seconds    = seconds_since_start() - setup_seconds;
+    summary.error_estimate = error_estimate;
+    summary.largest_motion = largest_motion;
+    summary.frames         = frames ? frames->n_written() : 0;
+    summary.history        = parameters.output.history;
+    summary.probes         = parameters.output.history && !probes.empty();
+    summary.observed       = writes;
+    summary.last           = now;
+    const Model model{body, constraints, loads, implicit_operator, *solver, parameters, effort};
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+      write_whole_file(folder + "/summary.json", summary.to_json(model));
+
+    if (talks && status == "done")
+      {
+        std::cout << "done: " << step << " steps in " << readable_duration(summary.run_seconds) << ", "
+                  << std::lround(step / summary.run_seconds) << " steps/s";
+        if (implicit_operator.has_mass())
+          std::cout << "; estimated error " << error_estimate << " m, motion " << largest_motion << " m";
+        std::cout << "; " << summary.frames << " frames in " << folder << std::endl;
+      }
+  }
+} // namespace Supple

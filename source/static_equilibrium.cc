@@ -1,0 +1,140 @@
+#include <supple/static_equilibrium.h>
+
+#include <supple/error.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace Supple
+{
+  StaticEquilibrium::StaticEquilibrium(const Model &model)
+    : TimeIntegrator(model)
+  {
+    model.body.initialize(residual);
+    model.body.initialize(correction);
+    model.body.initialize(free_residual);
+  }
+
+
+
+  std::string
+  StaticEquilibrium::name() const
+  {
+    return model.body.rotation == RotationMethod::none ? "static, one linear solution a load step" :
+                                                         "static, Newton's method in load steps";
+  }
+
+
+
+  void
+  StaticEquilibrium::update_residual(const Vector &displacement, const double load_factor)
+  {
+    model.body.update_rotations(displacement, model.effort);
+    model.body.internal_force(residual, displacement, model.effort);
+    residual.sadd(-1., load_factor, model.loads.force(1.));
+  }
+
+
+
+  double
+  StaticEquilibrium::energy(const Vector &displacement, const double load_factor) const
+  {
+    const GhostValues values(displacement);
+    const double elastic = model.body.tetrahedra->sums(values.data(), nullptr).elastic;
+    return dealii::Utilities::MPI::sum(elastic, model.body.mesh.communicator) -
+           load_factor * (model.loads.force(1.) * displacement);
+  }
+
+
+
+  void
+  StaticEquilibrium::add_correction(Vector &displacement, const double load_factor)
+  {
+    if (model.body.rotation != RotationMethod::polar) // linear: exact; Gram-Schmidt: no energy
+      {
+        displacement += correction;
+        update_residual(displacement, load_factor);
+        return;
+      }
+
+    const Vector start  = displacement;
+    const double before = energy(start, load_factor);
+    const double slope  = free_residual * correction; // minus the derivative, positive
+    for (double part = 1.; part > 1e-3; part *= 0.5)
+      {
+        displacement = start;
+        displacement.add(part, correction);
+        update_residual(displacement, load_factor);
+        if (energy(displacement, load_factor) <=
+            before - 1e-4 * part * slope + 1e-13 * std::abs(before))
+          return;
+      }
+    throw ComputationError("no part of Newton's correction lowers the energy");
+  }
+
+
+
+  StepReport
+  StaticEquilibrium::advance(State &state, const double load_factor, const bool observed)
+  {
+    const TimeParameters &time   = model.parameters.time;
+    const bool            linear = model.body.rotation == RotationMethod::none;
+    Vector               &u      = state.block(0);
+    const Vector          start  = u;
+    StepReport            report;
+    report.dt        = load_factor - last_load_factor;
+    last_load_factor = load_factor;
+
+    update_residual(u, load_factor);
+    for (;;)
+      {
+        free_residual = residual;
+        model.constraints.set_zero(free_residual);
+
+        // What is out of balance is small beside the loads and the reactions.
+        const double size    = load_factor * model.loads.force(1.).l2_norm() + residual.l2_norm();
+        const double balance = free_residual.l2_norm();
+        if (!std::isfinite(balance))
+          {
+            u = start;
+            throw ComputationError("the forces are not finite any more");
+          }
+        if (linear ? report.newton_iterations == 1 : balance <= time.newton_tolerance * size)
+          break;
+        if (report.newton_iterations == time.newton_limit)
+          {
+            u = start;
+            std::ostringstream text;
+            text << "Newton's method is not done after " << time.newton_limit
+                 << " iterations: the forces are out of balance by " << balance / size
+                 << " of the loads and reactions. More load steps (Time/Steps) may help";
+            throw ComputationError(text.str());
+          }
+
+        if (!linear || !prepared)
+          {
+            model.implicit_operator.assemble_stiffness();
+            model.solver.prepare(u);
+            prepared = true;
+          }
+        report.linear_iterations += model.solver.solve(correction, free_residual);
+        add_correction(u, load_factor);
+        ++report.newton_iterations;
+      }
+    model.effort.newton_iterations += report.newton_iterations;
+
+    if (observed)
+      {
+        correction = residual;
+        correction *= -1.;
+        set_reactions(correction);
+        correction = u;
+        correction -= start;
+        if (model.loads.has_body_force())
+          report.load_work = load_factor * (model.loads.body_force(1.) * correction);
+      }
+    return report;
+  }
+} // namespace Supple

@@ -1,0 +1,493 @@
+#include <supple/tetrahedra.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Supple
+{
+  namespace stdx = std::experimental;
+
+  namespace
+  {
+    constexpr std::array<std::array<unsigned int, 2>, 6> lower_pairs = {
+      {{{1, 0}}, {{2, 0}}, {{2, 1}}, {{3, 0}}, {{3, 1}}, {{3, 2}}}};
+
+    using Vector3 = std::array<double, 3>;
+
+    Vector3
+    difference(const Vector3 &a, const Vector3 &b)
+    {
+      return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}};
+    }
+
+    Vector3
+    cross(const Vector3 &a, const Vector3 &b)
+    {
+      return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+    }
+
+
+    /** Gradients of the four linear shape functions; returns the volume. */
+    double
+    shape_gradients(const std::array<Vector3, 4> &X, std::array<Vector3, 4> &g)
+    {
+      const Vector3 d1 = difference(X[1], X[0]), d2 = difference(X[2], X[0]),
+                    d3 = difference(X[3], X[0]);
+
+      g[1] = cross(d2, d3);
+      g[2] = cross(d3, d1);
+      g[3] = cross(d1, d2);
+
+      const double six_volumes = d1[0] * g[1][0] + d1[1] * g[1][1] + d1[2] * g[1][2];
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          g[0][i] = 0.;
+          for (unsigned int a = 1; a < 4; ++a)
+            {
+              g[a][i] /= six_volumes;
+              g[0][i] -= g[a][i];
+            }
+        }
+      return six_volumes / 6.;
+    }
+  } // namespace
+
+
+
+  Tetrahedra::Tetrahedra(const std::vector<std::array<double, 3>> &positions,
+                         const std::vector<Tetrahedron>           &cells,
+                         const bool                                lumped_mass)
+    : n_cells(cells.size())
+    , lumped_mass(lumped_mass)
+    , batches((cells.size() + n_lanes - 1) / n_lanes, Batch{}) // empty lanes: zero volume, node 0
+    , positions(positions)
+  {
+    for (std::size_t c = 0; c < n_cells; ++c)
+      {
+        Batch             &batch = batches[c / n_lanes];
+        const unsigned int lane  = c % n_lanes;
+
+        std::array<Vector3, 4> X, g;
+        for (unsigned int a = 0; a < 4; ++a)
+          X[a] = positions[cells[c].nodes[a]];
+
+        batch.volume[lane]  = shape_gradients(X, g);
+        batch.lambda[lane]  = cells[c].lambda;
+        batch.mu[lane]      = cells[c].mu;
+        batch.density[lane] = cells[c].density;
+        batch.owned[lane]   = cells[c].owned ? 1. : 0.;
+
+        // Nodes in ascending order: then each pair lies below the diagonal of the matrix.
+        std::array<unsigned int, 4> order = {{0, 1, 2, 3}};
+        std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
+          return cells[c].nodes[a] < cells[c].nodes[b];
+        });
+        for (unsigned int a = 0; a < 4; ++a)
+          {
+            batch.nodes[a][lane] = cells[c].nodes[order[a]];
+            for (unsigned int i = 0; i < 3; ++i)
+              batch.gradients[a][i][lane] = g[order[a]][i];
+          }
+      }
+  }
+
+
+
+  void
+  Tetrahedra::connect(const SymmetricPattern &pattern)
+  {
+    slots.resize(batches.size());
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      for (unsigned int lane = 0; lane < n_lanes; ++lane)
+        {
+          const bool empty = b * n_lanes + lane >= n_cells;
+          const auto node  = [&](const unsigned int a) { return batches[b].nodes[a][lane]; };
+          for (unsigned int a = 0; a < 4; ++a)
+            slots[b].diagonal[a][lane] =
+              (empty || node(a) >= pattern.n_owned) ? pattern.n_owned : node(a);
+          for (unsigned int p = 0; p < 6; ++p)
+            slots[b].lower[p][lane] =
+              empty ? pattern.n_entries() :
+                      pattern.position(node(lower_pairs[p][0]), node(lower_pairs[p][1]));
+        }
+  }
+
+
+
+  Tetrahedra::NodalPack
+  Tetrahedra::gather(const Batch &batch, const double *nodal)
+  {
+    NodalPack values;
+    for (unsigned int a = 0; a < 4; ++a)
+      {
+        alignas(64) double buffer[3][n_lanes];
+        for (unsigned int lane = 0; lane < n_lanes; ++lane)
+          for (unsigned int i = 0; i < 3; ++i)
+            buffer[i][lane] = nodal[3 * static_cast<std::size_t>(batch.nodes[a][lane]) + i];
+        for (unsigned int i = 0; i < 3; ++i)
+          values[a][i].copy_from(buffer[i], stdx::vector_aligned);
+      }
+    return values;
+  }
+
+
+
+  void
+  Tetrahedra::scatter(const Batch &batch, const NodalPack &values, double *nodal)
+  {
+    for (unsigned int a = 0; a < 4; ++a)
+      {
+        alignas(64) double buffer[3][n_lanes];
+        for (unsigned int i = 0; i < 3; ++i)
+          values[a][i].copy_to(buffer[i], stdx::vector_aligned);
+        for (unsigned int lane = 0; lane < n_lanes; ++lane)
+          for (unsigned int i = 0; i < 3; ++i)
+            nodal[3 * static_cast<std::size_t>(batch.nodes[a][lane]) + i] += buffer[i][lane];
+      }
+  }
+
+
+
+  Matrix3<Pack>
+  Tetrahedra::gradient(const Batch &batch, const NodalPack &values)
+  {
+    Matrix3<Pack> G;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        G(i, j) = values[0][i] * batch.gradients[0][j] + values[1][i] * batch.gradients[1][j] +
+                  values[2][i] * batch.gradients[2][j] + values[3][i] * batch.gradients[3][j];
+    return G;
+  }
+
+
+
+  Matrix3<Pack>
+  Tetrahedra::deformation_gradient(const Batch &batch, const double *displacement) const
+  {
+    Matrix3<Pack> F = gradient(batch, gather(batch, displacement));
+    for (unsigned int i = 0; i < 3; ++i)
+      F(i, i) += 1.;
+    return F;
+  }
+
+
+
+  /** sym(R^T F); the strain is this minus the identity where F is a deformation gradient. */
+  Matrix3<Pack>
+  Tetrahedra::strain(const Matrix3<Pack> &R, const Matrix3<Pack> &F)
+  {
+    Matrix3<Pack> S = transposed_product(R, F);
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < i; ++j)
+        S(i, j) = S(j, i) = 0.5 * (S(i, j) + S(j, i));
+    return S;
+  }
+
+
+
+  Matrix3<Pack>
+  Tetrahedra::stress(const Batch &batch, const Matrix3<Pack> &strain)
+  {
+    Matrix3<Pack> P;
+    for (unsigned int k = 0; k < 9; ++k)
+      P.entries[k] = 2. * batch.mu * strain.entries[k];
+    const Pack pressure = batch.lambda * trace(strain);
+    for (unsigned int i = 0; i < 3; ++i)
+      P(i, i) += pressure;
+    return P;
+  }
+
+
+
+  void
+  Tetrahedra::add_stress_divergence(const std::size_t    b,
+                                    const Matrix3<Pack> &strain,
+                                    double              *force) const
+  {
+    const Batch  &batch = batches[b];
+    Matrix3<Pack> P     = stress(batch, strain);
+    if (!rotations.empty())
+      P = rotations[b] * P;
+    NodalPack f;
+    for (unsigned int a = 0; a < 4; ++a)
+      for (unsigned int i = 0; i < 3; ++i)
+        f[a][i] = batch.volume *
+                  (P(i, 0) * batch.gradients[a][0] + P(i, 1) * batch.gradients[a][1] +
+                   P(i, 2) * batch.gradients[a][2]);
+    scatter(batch, f, force);
+  }
+
+
+
+  void
+  Tetrahedra::update_rotations(const RotationMethod method, const double *displacement)
+  {
+    rotations.resize(batches.size());
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      rotations[b] = rotation(method, deformation_gradient(batches[b], displacement));
+  }
+
+
+
+  void
+  Tetrahedra::add_internal_force(const double *displacement, double *force) const
+  {
+    const Matrix3<Pack> I = Matrix3<Pack>::identity();
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      {
+        Matrix3<Pack> e = strain(rotations.empty() ? I : rotations[b],
+                                 deformation_gradient(batches[b], displacement));
+        for (unsigned int i = 0; i < 3; ++i)
+          e(i, i) -= 1.;
+        add_stress_divergence(b, e, force);
+      }
+  }
+
+
+
+  void
+  Tetrahedra::add_stiffness_product(const double *w, double *y) const
+  {
+    const Matrix3<Pack> I = Matrix3<Pack>::identity();
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      add_stress_divergence(b,
+                            strain(rotations.empty() ? I : rotations[b],
+                                   gradient(batches[b], gather(batches[b], w))),
+                            y);
+  }
+
+
+
+  std::pair<Pack, Pack>
+  Tetrahedra::mass_entries(const Batch &batch) const
+  {
+    const Pack mass = batch.density * batch.volume;
+    if (lumped_mass)
+      return {0.25 * mass, Pack(0.)};
+    return {0.1 * mass, 0.05 * mass};
+  }
+
+
+
+  void
+  Tetrahedra::add_mass_product(const double *w, double *y) const
+  {
+    for (const Batch &batch : batches)
+      {
+        const auto [same, other] = mass_entries(batch);
+        NodalPack values         = gather(batch, w);
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            const Pack sum = values[0][i] + values[1][i] + values[2][i] + values[3][i];
+            for (unsigned int a = 0; a < 4; ++a)
+              values[a][i] = other * sum + (same - other) * values[a][i];
+          }
+        scatter(batch, values, y);
+      }
+  }
+
+
+
+  void
+  Tetrahedra::add_load(const double *force_density, double *force) const
+  {
+    for (const Batch &batch : batches)
+      {
+        NodalPack values = gather(batch, force_density);
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            const Pack sum = values[0][i] + values[1][i] + values[2][i] + values[3][i];
+            for (unsigned int a = 0; a < 4; ++a)
+              values[a][i] = 0.05 * batch.volume * (sum + values[a][i]);
+          }
+        scatter(batch, values, force);
+      }
+  }
+
+
+
+  void
+  Tetrahedra::add_tangent(const double          mass_factor,
+                          const double          stiffness_factor,
+                          SymmetricBlockMatrix &A) const
+  {
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      {
+        const Batch &batch       = batches[b];
+        const auto [same, other] = mass_entries(batch);
+        const Pack lambda        = stiffness_factor * batch.volume * batch.lambda;
+        const Pack mu            = stiffness_factor * batch.volume * batch.mu;
+
+        NodalPack h = batch.gradients;
+        if (!rotations.empty())
+          for (unsigned int a = 0; a < 4; ++a)
+            for (unsigned int i = 0; i < 3; ++i)
+              h[a][i] = rotations[b](i, 0) * batch.gradients[a][0] +
+                        rotations[b](i, 1) * batch.gradients[a][1] +
+                        rotations[b](i, 2) * batch.gradients[a][2];
+
+        const auto add_block = [&](const unsigned int a,
+                                   const unsigned int c,
+                                   const auto        &slot,
+                                   double            *values) {
+          const Pack diagonal =
+            mu * (h[a][0] * h[c][0] + h[a][1] * h[c][1] + h[a][2] * h[c][2]) +
+            mass_factor * (a == c ? same : other);
+          alignas(64) double block[9][n_lanes];
+          for (unsigned int i = 0; i < 3; ++i)
+            for (unsigned int j = 0; j < 3; ++j)
+              {
+                Pack entry = lambda * h[a][i] * h[c][j] + mu * h[c][i] * h[a][j];
+                if (i == j)
+                  entry += diagonal;
+                entry.copy_to(block[3 * i + j], stdx::vector_aligned);
+              }
+          for (unsigned int lane = 0; lane < n_lanes; ++lane)
+            {
+              double *target = values + 9 * static_cast<std::size_t>(slot[lane]);
+              for (unsigned int k = 0; k < 9; ++k)
+                target[k] += block[k][lane];
+            }
+        };
+
+        for (unsigned int a = 0; a < 4; ++a)
+          add_block(a, a, slots[b].diagonal[a], A.diagonal.data());
+        for (unsigned int p = 0; p < 6; ++p)
+          add_block(lower_pairs[p][0], lower_pairs[p][1], slots[b].lower[p], A.lower.data());
+      }
+  }
+
+
+
+  void
+  Tetrahedra::add_mass(SymmetricScalarMatrix &M) const
+  {
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      {
+        const auto [same, other] = mass_entries(batches[b]);
+        for (unsigned int lane = 0; lane < n_lanes; ++lane)
+          {
+            for (unsigned int a = 0; a < 4; ++a)
+              M.diagonal[slots[b].diagonal[a][lane]] += same[lane];
+            for (unsigned int p = 0; p < 6; ++p)
+              M.lower[slots[b].lower[p][lane]] += other[lane];
+          }
+      }
+  }
+
+
+
+  void
+  Tetrahedra::add_nodal_mass(double *mass) const
+  {
+    for (const Batch &batch : batches)
+      for (unsigned int lane = 0; lane < n_lanes; ++lane)
+        for (unsigned int a = 0; a < 4; ++a)
+          mass[batch.nodes[a][lane]] += 0.25 * batch.density[lane] * batch.volume[lane];
+  }
+
+
+
+  CellSums
+  Tetrahedra::sums(const double *displacement, const double *velocity) const
+  {
+    CellSums            sums;
+    const Matrix3<Pack> I = Matrix3<Pack>::identity();
+    Pack                kinetic(0.), elastic(0.), inverted(0.);
+    Pack                smallest(sums.min_volume_ratio), largest(sums.max_volume_ratio);
+
+    std::array<Pack, 3> linear{{0., 0., 0.}}, angular{{0., 0., 0.}};
+
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      {
+        const Batch         &batch = batches[b];
+        const Matrix3<Pack>  F     = deformation_gradient(batch, displacement);
+        Matrix3<Pack>        e     = strain(rotations.empty() ? I : rotations[b], F);
+        for (unsigned int i = 0; i < 3; ++i)
+          e(i, i) -= 1.;
+        const Pack tr = trace(e);
+        elastic += batch.owned * batch.volume *
+                   (batch.mu * norm_square(e) + 0.5 * batch.lambda * tr * tr);
+
+        const Pack ratio   = determinant(F);
+        const auto counted = batch.owned > 0.;
+        stdx::where(counted && ratio < smallest, smallest) = ratio;
+        stdx::where(counted && ratio > largest, largest)   = ratio;
+        stdx::where(counted && !(ratio > 0.), inverted) += 1.;
+
+        if (velocity == nullptr)
+          continue;
+        // The cell's share of M v gives momenta and kinetic energy.
+        NodalPack x = gather(batch, displacement);
+        for (unsigned int lane = 0; lane < n_lanes; ++lane)
+          for (unsigned int a = 0; a < 4; ++a)
+            for (unsigned int i = 0; i < 3; ++i)
+              x[a][i][lane] += positions[batch.nodes[a][lane]][i];
+        const NodalPack v    = gather(batch, velocity);
+        const Pack      mass = batch.owned * batch.density * batch.volume;
+
+        const auto [same, other] = mass_entries(batch);
+        NodalPack momentum; // of each node: the cell's mass matrix times v
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            const Pack sum = v[0][i] + v[1][i] + v[2][i] + v[3][i];
+            linear[i] += 0.25 * mass * sum;
+            for (unsigned int a = 0; a < 4; ++a)
+              {
+                momentum[a][i] = batch.owned * (other * sum + (same - other) * v[a][i]);
+                kinetic += 0.5 * momentum[a][i] * v[a][i];
+              }
+          }
+        for (unsigned int a = 0; a < 4; ++a)
+          for (unsigned int i = 0; i < 3; ++i)
+            {
+              const unsigned int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+              angular[i] += x[a][i1] * momentum[a][i2] - x[a][i2] * momentum[a][i1];
+            }
+      }
+
+    sums.kinetic          = stdx::reduce(kinetic);
+    sums.elastic          = stdx::reduce(elastic);
+    sums.min_volume_ratio = stdx::hmin(smallest);
+    sums.max_volume_ratio = stdx::hmax(largest);
+    sums.inverted         = static_cast<unsigned int>(stdx::reduce(inverted));
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        sums.linear_momentum[i]  = stdx::reduce(linear[i]);
+        sums.angular_momentum[i] = stdx::reduce(angular[i]);
+      }
+    return sums;
+  }
+
+
+
+  std::vector<CellState>
+  Tetrahedra::states(const double *displacement) const
+  {
+    std::vector<CellState> states(n_cells);
+    const Matrix3<Pack>    I = Matrix3<Pack>::identity();
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      {
+        const Matrix3<Pack>  F = deformation_gradient(batches[b], displacement);
+        const Matrix3<Pack> &R = rotations.empty() ? I : rotations[b];
+        Matrix3<Pack>        e = strain(R, F);
+        for (unsigned int i = 0; i < 3; ++i)
+          e(i, i) -= 1.;
+
+        Matrix3<Pack> deviator = stress(batches[b], e);
+        const Pack    mean     = trace(deviator) / 3.;
+        for (unsigned int i = 0; i < 3; ++i)
+          deviator(i, i) -= mean;
+
+        const Pack von_mises = stdx::sqrt(1.5 * norm_square(deviator));
+        const Pack ratio     = determinant(F);
+        const Pack cosine    = 0.5 * (trace(R) - 1.);
+        for (unsigned int lane = 0; lane < n_lanes && b * n_lanes + lane < n_cells; ++lane)
+          {
+            const double c                = std::min(1., std::max(-1., double(cosine[lane])));
+            states[b * n_lanes + lane] = {ratio[lane], von_mises[lane], std::acos(c) * 180. / M_PI};
+          }
+      }
+    return states;
+  }
+} // namespace Supple
