@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs all tests in a Debian 13, made in a folder the first time: sudo scripts/test-debian13.sh [options of ctest].
-# The folder is $SUPPLE_DEBIAN13, or else /var/tmp/supple-debian13. It takes 5 GB and is kept: delete it to start anew.
+# The folder is $SUPPLE_DEBIAN13, or else /var/tmp/supple-debian13. It takes 4 GB and is kept: delete it to start anew.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 if [ "$(id -u)" -ne 0 ]; then
@@ -50,6 +50,7 @@ comm -z -23 <(list -co --exclude-standard) <(list -d) \
 
 mount -t proc proc "$folder/proc"
 mount --rbind /dev "$folder/dev"    # with /dev/shm, which MPI needs, and /dev/pts
+mount --rbind /sys "$folder/sys"    # where MPI looks for the processors
 
 clean=(HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8)
 for name in CI http_proxy https_proxy no_proxy; do

@@ -17,8 +17,7 @@ namespace Supple
     {
       const ImplicitOperator &A;
 
-      void
-      vmult(Vector &y, const Vector &x) const
+      void vmult(Vector &y, const Vector &x) const
       {
         A.mass_vmult(y, x);
       }
@@ -29,8 +28,7 @@ namespace Supple
     {
       const std::vector<double> &inverse;
 
-      void
-      vmult(Vector &y, const Vector &x) const
+      void vmult(Vector &y, const Vector &x) const
       {
         for (std::size_t node = 0; node < inverse.size(); ++node)
           for (unsigned int i = 0; i < 3; ++i)
@@ -40,24 +38,21 @@ namespace Supple
   } // namespace
 
 
-
-  BackwardEuler::ARKode::AdditionalData
-  BackwardEuler::settings(const Parameters &parameters)
+  BackwardEuler::ARKode::AdditionalData BackwardEuler::settings(const Parameters &parameters)
   {
     const bool linear = parameters.corotation.rotation == RotationMethod::none;
 
     ARKode::AdditionalData data;
-    data.initial_time                            = 0.;
-    data.final_time                              = 1e300; // each step sets its own stop time
-    data.initial_step_size                       = parameters.time.step;
-    data.output_period                           = 1e300;
-    data.minimum_step_size                       = 0.;
-    data.implicit_function_is_linear             = true;
-    data.implicit_function_is_time_independent   = linear;
-    data.mass_is_time_independent                = true;
+    data.initial_time                          = 0.;
+    data.final_time                            = 1e300; // each step sets its own stop time
+    data.initial_step_size                     = parameters.time.step;
+    data.output_period                         = 1e300;
+    data.minimum_step_size                     = 0.;
+    data.implicit_function_is_linear           = true;
+    data.implicit_function_is_time_independent = linear;
+    data.mass_is_time_independent              = true;
     return data;
   }
-
 
 
   BackwardEuler::BackwardEuler(const Model &model, const Vector &displacement)
@@ -77,18 +72,14 @@ namespace Supple
   }
 
 
-
-  std::string
-  BackwardEuler::name() const
+  std::string BackwardEuler::name() const
   {
     return "backward Euler (ARKode)";
   }
 
 
-
   template <class Action>
-  int
-  BackwardEuler::guarded(const Action &action)
+  int BackwardEuler::guarded(const Action &action)
   {
     if (failure)
       return -1;
@@ -105,9 +96,7 @@ namespace Supple
   }
 
 
-
-  void
-  BackwardEuler::throw_what_failed()
+  void BackwardEuler::throw_what_failed()
   {
     if (failure)
       std::rethrow_exception(failure);
@@ -116,9 +105,7 @@ namespace Supple
   }
 
 
-
-  void
-  BackwardEuler::set_callbacks()
+  void BackwardEuler::set_callbacks()
   {
     ode.implicit_function = [this](const double time, const State &y, State &f) {
       return guarded([&] {
@@ -136,7 +123,7 @@ namespace Supple
 
     ode.solve_mass = [this](SUNDIALS::SundialsOperator<State> &,
                             SUNDIALS::SundialsPreconditioner<State> &,
-                            State       &x,
+                            State &x,
                             const State &b,
                             const double) {
       return guarded([&] {
@@ -153,7 +140,7 @@ namespace Supple
                                                const State &y,
                                                const State &,
                                                const int,
-                                               int         &jacobian_is_current,
+                                               int &jacobian_is_current,
                                                const double new_gamma) {
       return guarded([&] {
         gamma = new_gamma;
@@ -167,7 +154,7 @@ namespace Supple
                                                const State &,
                                                const State &,
                                                const State &r,
-                                               State       &z,
+                                               State &z,
                                                const double,
                                                const double,
                                                const int) {
@@ -176,23 +163,23 @@ namespace Supple
 
     ode.solve_linearized_system = [this](SUNDIALS::SundialsOperator<State> &,
                                          SUNDIALS::SundialsPreconditioner<State> &elimination,
-                                         State                                   &x,
-                                         const State                             &b,
+                                         State &x,
+                                         const State &b,
                                          const double) {
       return guarded([&] { elimination.vmult(x, b); });
     };
 
-    ode.output_step  = [this](const double, const State &, const unsigned int) { throw_what_failed(); };
+    ode.output_step = [this](const double, const State &, const unsigned int) {
+      throw_what_failed();
+    };
     ode.custom_setup = [this](void *memory) { set_options(memory); };
   }
 
 
-
-  void
-  BackwardEuler::set_options(void *arkode_memory)
+  void BackwardEuler::set_options(void *arkode_memory)
   {
-    Compatibility::Real       one   = 1.;
-    const ARKodeButcherTable  table = ARKodeButcherTable_Create(1, 1, 0, &one, &one, &one, nullptr);
+    Compatibility::Real one        = 1.;
+    const ARKodeButcherTable table = ARKodeButcherTable_Create(1, 1, 0, &one, &one, &one, nullptr);
     AssertThrow(ARKStepSetTables(arkode_memory, 1, 0, table, nullptr) == 0, ExcInternalError());
     ARKodeButcherTable_Free(table);
 
@@ -211,9 +198,7 @@ namespace Supple
   }
 
 
-
-  void
-  BackwardEuler::net_force(const double time, const State &y, Vector &net)
+  void BackwardEuler::net_force(const double time, const State &y, Vector &net)
   {
     const DampingParameters &damping = model.parameters.damping;
 
@@ -239,9 +224,7 @@ namespace Supple
   }
 
 
-
-  void
-  BackwardEuler::solve_eliminated(const State &r, State &z)
+  void BackwardEuler::solve_eliminated(const State &r, State &z)
   {
     model.implicit_operator.stiffness_vmult(scratch, r.block(0));
     scratch.sadd(-gamma, 1., r.block(1));
@@ -254,22 +237,18 @@ namespace Supple
   }
 
 
-
-  void
-  BackwardEuler::solve_mass(Vector &x, const Vector &b)
+  void BackwardEuler::solve_mass(Vector &x, const Vector &b)
   {
     const PhaseTimer timer(model.effort, Phase::solve);
 
     x = velocity_increment;
-    SolverControl    control(1000, 1e-13 * b.l2_norm() + std::numeric_limits<double>::min());
+    SolverControl control(1000, 1e-13 * b.l2_norm() + std::numeric_limits<double>::min());
     SolverCG<Vector> cg(control);
     cg.solve(MassProduct{model.implicit_operator}, x, b, MassDiagonal{inverse_mass});
   }
 
 
-
-  StepReport
-  BackwardEuler::advance(State &state, const double time, const bool observed)
+  StepReport BackwardEuler::advance(State &state, const double time, const bool observed)
   {
     StepReport report;
     report.dt         = model.parameters.time.step;
@@ -312,19 +291,17 @@ namespace Supple
   }
 
 
-
   /**
-   * Backward Euler with the rotations of the step gives, with the change d of a quantity over the step,
-   *   d(kinetic) + 1/2 dv.M dv + dt v1.D v1 + f_int(u1).du = f1.du,
-   * and all but the first term on the left is what the step expended.
+   * Backward Euler with the rotations of the step gives, with the change d of a quantity over the
+   * step, d(kinetic) + 1/2 dv.M dv + dt v1.D v1 + f_int(u1).du = f1.du, and all but the first term
+   * on the left is what the step expended.
    */
-  void
-  BackwardEuler::observe(const State &state, const double time, StepReport &report)
+  void BackwardEuler::observe(const State &state, const double time, StepReport &report)
   {
-    const PhaseTimer         timer(model.effort, Phase::diagnostics);
+    const PhaseTimer timer(model.effort, Phase::diagnostics);
     const DampingParameters &damping = model.parameters.damping;
-    const Vector            &v       = state.block(1);
-    Vector                   du = state.block(0), dv = v;
+    const Vector &v                  = state.block(1);
+    Vector du = state.block(0), dv = v;
     du -= previous.block(0);
     dv -= previous.block(1);
 
@@ -341,9 +318,8 @@ namespace Supple
     inertia.add(damping.mass_factor, v);
     {
       const GhostValues values(inertia);
-      sum_into(scratch, [&](double *sum) {
-        model.body.tetrahedra->add_mass_product(values.data(), sum);
-      });
+      sum_into(scratch,
+               [&](double *sum) { model.body.tetrahedra->add_mass_product(values.data(), sum); });
     }
     force += scratch;
     if (damping.any())

@@ -4,8 +4,7 @@
 
 namespace Supple
 {
-  std::size_t
-  SymmetricPattern::position(const unsigned int row, const unsigned int wanted) const
+  std::size_t SymmetricPattern::position(const unsigned int row, const unsigned int wanted) const
   {
     const auto begin = column.begin() + row_start[row];
     const auto end   = column.begin() + row_start[row + 1];
@@ -14,33 +13,29 @@ namespace Supple
   }
 
 
-
   SymmetricBlockMatrix::SymmetricBlockMatrix(const SymmetricPattern &pattern)
     : pattern(pattern)
     , lower(9 * (pattern.n_entries() + 1))
     , diagonal(9 * (pattern.n_owned + 1))
-  {}
+  {
+  }
 
 
-
-  void
-  SymmetricBlockMatrix::set_zero()
+  void SymmetricBlockMatrix::set_zero()
   {
     std::fill(lower.begin(), lower.end(), 0.);
     std::fill(diagonal.begin(), diagonal.end(), 0.);
   }
 
 
-
-  void
-  SymmetricBlockMatrix::vmult(double *y, const double *x) const
+  void SymmetricBlockMatrix::vmult(double *y, const double *x) const
   {
     // Row i comes after all rows it adds to, so that y[i] can be set and added to in one sweep.
     for (unsigned int i = 0; i < pattern.n_local; ++i)
       {
-        const bool   owned = i < pattern.n_owned;
+        const bool owned = i < pattern.n_owned;
         const double x0 = x[3 * i], x1 = x[3 * i + 1], x2 = x[3 * i + 2];
-        double       y0 = 0., y1 = 0., y2 = 0.;
+        double y0 = 0., y1 = 0., y2 = 0.;
         if (owned)
           {
             const double *d = &diagonal[9 * static_cast<std::size_t>(i)];
@@ -53,7 +48,7 @@ namespace Supple
           {
             const double *a  = &lower[9 * k];
             const double *xj = x + 3 * static_cast<std::size_t>(pattern.column[k]);
-            double       *yj = y + 3 * static_cast<std::size_t>(pattern.column[k]);
+            double *yj       = y + 3 * static_cast<std::size_t>(pattern.column[k]);
 
             y0 += a[0] * xj[0] + a[1] * xj[1] + a[2] * xj[2];
             y1 += a[3] * xj[0] + a[4] * xj[1] + a[5] * xj[2];
@@ -72,29 +67,27 @@ namespace Supple
   }
 
 
-
   SymmetricScalarMatrix::SymmetricScalarMatrix(const SymmetricPattern &pattern)
     : pattern(pattern)
     , lower(pattern.n_entries() + 1)
     , diagonal(pattern.n_owned + 1)
-  {}
+  {
+  }
 
 
-
-  void
-  SymmetricScalarMatrix::vmult(double *y, const double *x) const
+  void SymmetricScalarMatrix::vmult(double *y, const double *x) const
   {
     for (unsigned int i = 0; i < pattern.n_local; ++i)
       {
-        const bool   owned = i < pattern.n_owned;
+        const bool owned = i < pattern.n_owned;
         const double x0 = x[3 * i], x1 = x[3 * i + 1], x2 = x[3 * i + 2];
-        const double d  = owned ? diagonal[i] : 0.;
-        double       y0 = d * x0, y1 = d * x1, y2 = d * x2;
+        const double d = owned ? diagonal[i] : 0.;
+        double y0 = d * x0, y1 = d * x1, y2 = d * x2;
         for (std::size_t k = pattern.row_start[i]; k < pattern.row_start[i + 1]; ++k)
           {
-            const double  a  = lower[k];
+            const double a   = lower[k];
             const double *xj = x + 3 * static_cast<std::size_t>(pattern.column[k]);
-            double       *yj = y + 3 * static_cast<std::size_t>(pattern.column[k]);
+            double *yj       = y + 3 * static_cast<std::size_t>(pattern.column[k]);
 
             y0 += a * xj[0];
             y1 += a * xj[1];

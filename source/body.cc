@@ -25,27 +25,24 @@ namespace Supple
   }
 
 
-
-  void
-  Body::number_nodes()
+  void Body::number_nodes()
   {
-    partitioner = std::make_shared<Utilities::MPI::Partitioner>(
-      dof_handler.locally_owned_dofs(),
-      Compatibility::locally_relevant_dofs(dof_handler),
-      mesh.communicator);
+    partitioner =
+      std::make_shared<Utilities::MPI::Partitioner>(dof_handler.locally_owned_dofs(),
+                                                    Compatibility::locally_relevant_dofs(
+                                                      dof_handler),
+                                                    mesh.communicator);
     n_owned = partitioner->locally_owned_size() / 3;
     n_local = n_owned + partitioner->n_ghost_indices() / 3;
   }
 
 
-
-  void
-  Body::collect_cells(const MaterialParameters &material)
+  void Body::collect_cells(const MaterialParameters &material)
   {
     positions.resize(n_local);
     serial_vertex.resize(n_local);
 
-    std::vector<Tetrahedron>             cells;
+    std::vector<Tetrahedron> cells;
     std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
     for (const auto &cell : dof_handler.active_cell_iterators())
       {
@@ -54,12 +51,13 @@ namespace Supple
         cell->get_dof_indices(dofs);
 
         Tetrahedron tetrahedron;
-        bool        touches_owned = false;
+        bool touches_owned = false;
         for (unsigned int a = 0; a < 4; ++a)
           {
             const unsigned int first = partitioner->global_to_local(dofs[3 * a]);
             // The rest of the program counts on three numbers in a row for each vertex.
-            AssertThrow(first % 3 == 0 && partitioner->global_to_local(dofs[3 * a + 1]) == first + 1 &&
+            AssertThrow(first % 3 == 0 &&
+                          partitioner->global_to_local(dofs[3 * a + 1]) == first + 1 &&
                           partitioner->global_to_local(dofs[3 * a + 2]) == first + 2,
                         ExcInternalError());
             const unsigned int node = first / 3;
@@ -83,55 +81,46 @@ namespace Supple
   }
 
 
-
-  void
-  Body::initialize(Vector &vector) const
+  void Body::initialize(Vector &vector) const
   {
     vector.reinit(partitioner);
   }
 
 
-
-  void
-  Body::update_rotations(const Vector &displacement, Effort &effort) const
+  void Body::update_rotations(const Vector &displacement, Effort &effort) const
   {
     if (rotation == RotationMethod::none)
       return;
-    const PhaseTimer  timer(effort, Phase::rotations);
+    const PhaseTimer timer(effort, Phase::rotations);
     const GhostValues values(displacement);
     tetrahedra->update_rotations(rotation, values.data());
     effort.rotations_computed += cell_nodes.size();
   }
 
 
-
-  void
-  Body::internal_force(Vector &force, const Vector &displacement, Effort &effort) const
+  void Body::internal_force(Vector &force, const Vector &displacement, Effort &effort) const
   {
-    const PhaseTimer  timer(effort, Phase::forces);
+    const PhaseTimer timer(effort, Phase::forces);
     const GhostValues values(displacement);
     sum_into(force, [&](double *sum) { tetrahedra->add_internal_force(values.data(), sum); });
   }
 
 
-
-  Point<3>
-  Body::position(const unsigned int node) const
+  Point<3> Body::position(const unsigned int node) const
   {
     return {positions[node][0], positions[node][1], positions[node][2]};
   }
 
 
-
-  std::vector<bool>
-  Body::boundary_nodes(const unsigned int boundary_id, const std::string &origin) const
+  std::vector<bool> Body::boundary_nodes(const unsigned int boundary_id,
+                                         const std::string &origin) const
   {
     if (mesh.boundaries.find(boundary_id) == mesh.boundaries.end())
       {
         std::string known;
         for (const auto &[id, n_faces] : mesh.boundaries)
-          known += (known.empty() ? "" : ", ") + std::to_string(id) + " (" + std::to_string(n_faces) +
-                   " faces)";
+          known += (known.empty() ? "" : ", ") + std::to_string(id) + " (" +
+                   std::to_string(n_faces) + " faces)";
         throw InputError(origin + ": the body has no boundary " + std::to_string(boundary_id) +
                          ". It has: " + known + ".");
       }
@@ -159,13 +148,12 @@ namespace Supple
   }
 
 
-
-  std::vector<bool>
-  Body::region_nodes(const std::string &expression, const std::string &origin) const
+  std::vector<bool> Body::region_nodes(const std::string &expression,
+                                       const std::string &origin) const
   {
-    const Expression  inside(expression, 1, origin);
+    const Expression inside(expression, 1, origin);
     std::vector<bool> nodes(n_local);
-    unsigned int      n_found = 0;
+    unsigned int n_found = 0;
     for (unsigned int node = 0; node < n_local; ++node)
       {
         nodes[node] = inside.value(position(node), 0.) != 0.;

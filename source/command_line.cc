@@ -4,36 +4,37 @@
 
 namespace Supple
 {
-  std::string
-  CommandLine::help()
+  std::string CommandLine::help()
   {
-    return "Supple moves soft elastic bodies: a parameter file goes in, VTU files and histories come out.\n"
+    return "Supple moves soft elastic bodies: a parameter file goes in, VTU files and histories "
+           "come out.\n"
            "\n"
            "  supple SCENE.prm                  run a scene\n"
            "    --set \"Section/Entry=value\"     change a parameter (may be given several times)\n"
-           "    --output DIR                    where results go (default: output/ and the scene's name)\n"
+           "    --output DIR                    where results go (default: output/ and the scene's "
+           "name)\n"
            "    --quiet                         say nothing but errors\n"
            "  supple --check SCENE.prm          parse, build the mesh, validate, run nothing\n"
            "  supple --print-parameters [prm|json]\n"
-           "                                    every entry with its default, unit, range and meaning\n"
+           "                                    every entry with its default, unit, range and "
+           "meaning\n"
            "  supple --version | --help\n"
            "\n"
-           "Exit status: 0 done; 1 the input is wrong; 2 the computation failed or was interrupted.\n"
+           "Exit status: 0 done; 1 the input is wrong; 2 the computation failed or was "
+           "interrupted.\n"
            "On several processes: mpirun -np 2 supple SCENE.prm\n";
   }
 
 
-
-  CommandLine
-  CommandLine::parse(const int argc, char **argv)
+  CommandLine CommandLine::parse(const int argc, char **argv)
   {
     const std::vector<std::string> words(argv + 1, argv + argc);
-    CommandLine                    line;
+    CommandLine line;
 
     for (std::size_t i = 0; i < words.size(); ++i)
       {
-        const std::string &word  = words[i];
-        const auto         value = [&](const std::string &what) {
+        const std::string &word = words[i];
+        const auto value        = [&](const std::string &what) {
           if (i + 1 >= words.size())
             throw InputError(word + ": " + what + " must follow.");
           return words[++i];
@@ -56,7 +57,8 @@ namespace Supple
             if (i + 1 < words.size())
               line.format = words[++i];
             if (line.format != "prm" && line.format != "json")
-              throw InputError("--print-parameters " + line.format + ": the format is prm or json.");
+              throw InputError("--print-parameters " + line.format +
+                               ": the format is prm or json.");
           }
         else if (word.size() > 1 && word[0] == '-')
           throw InputError(word + ": there is no such option.\n\n" + help());

@@ -17,19 +17,19 @@ namespace Supple
           if (nodes[node] && directions[i])
             held[3 * node + i] = true;
     };
-    const std::array<bool, 3>   all         = {{true, true, true}};
+    const std::array<bool, 3> all           = {{true, true, true}};
     const ConstraintParameters &constraints = parameters.constraints;
 
     for (const unsigned int id : constraints.clamped_boundaries)
       hold(body.boundary_nodes(id, parameters.origin("Constraints/Clamped boundaries")), all);
     if (!constraints.clamped_region.empty())
-      hold(body.region_nodes(constraints.clamped_region, parameters.origin("Constraints/Clamped region")),
+      hold(body.region_nodes(constraints.clamped_region,
+                             parameters.origin("Constraints/Clamped region")),
            all);
     for (unsigned int i = 0; i < 3; ++i)
       for (const unsigned int id : constraints.sliding_boundaries[i])
-        hold(body.boundary_nodes(id,
-                                 parameters.origin(std::string("Constraints/Boundaries held along ") +
-                                                   "xyz"[i])),
+        hold(body.boundary_nodes(
+               id, parameters.origin(std::string("Constraints/Boundaries held along ") + "xyz"[i])),
              {{i == 0, i == 1, i == 2}});
 
     for (unsigned int dof = 0; dof < 3 * body.n_owned; ++dof)
@@ -40,27 +40,25 @@ namespace Supple
   }
 
 
-
   /**
-   * Rank of the map from rigid motions to the displacements of held degrees of freedom, by the 6x6 matrix of its
-   * scalar products. Lengths are measured in diameters of the body.
+   * Rank of the map from rigid motions to the displacements of held degrees of freedom, by the 6x6
+   * matrix of its scalar products. Lengths are measured in diameters of the body.
    */
-  unsigned int
-  Constraints::count_free_rigid_motions(const Body &body) const
+  unsigned int Constraints::count_free_rigid_motions(const Body &body) const
   {
-    const auto     corners  = body.mesh.bounding_box.get_boundary_points();
-    const Point<3> center   = body.mesh.bounding_box.center();
-    const double   diameter = corners.first.distance(corners.second);
+    const auto corners    = body.mesh.bounding_box.get_boundary_points();
+    const Point<3> center = body.mesh.bounding_box.center();
+    const double diameter = corners.first.distance(corners.second);
 
     Eigen::Matrix<double, 6, 6> products = Eigen::Matrix<double, 6, 6>::Zero();
     for (const unsigned int dof : held_owned)
       {
-        const unsigned int   i = dof % 3, i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-        const Tensor<1, 3>   x    = (body.position(dof / 3) - center) / diameter;
+        const unsigned int i = dof % 3, i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+        const Tensor<1, 3> x               = (body.position(dof / 3) - center) / diameter;
         Eigen::Matrix<double, 6, 1> motion = Eigen::Matrix<double, 6, 1>::Zero();
-        motion[i]      = 1.;
-        motion[3 + i1] = x[i2]; // (w cross x)_i = w_i1 x_i2 - w_i2 x_i1
-        motion[3 + i2] = -x[i1];
+        motion[i]                          = 1.;
+        motion[3 + i1]                     = x[i2]; // (w cross x)_i = w_i1 x_i2 - w_i2 x_i1
+        motion[3 + i2]                     = -x[i1];
         products += motion * motion.transpose();
       }
     std::vector<double> sum(products.data(), products.data() + 36), total(36);
@@ -74,9 +72,7 @@ namespace Supple
   }
 
 
-
-  void
-  Constraints::set_zero(Vector &vector) const
+  void Constraints::set_zero(Vector &vector) const
   {
     for (const unsigned int dof : held_owned)
       vector.local_element(dof) = 0.;

@@ -6,50 +6,81 @@ namespace Supple
 {
   using namespace dealii;
 
-  std::vector<std::string>
-  Measurement::column_names()
+  std::vector<std::string> Measurement::column_names()
   {
-    return {"step", "time", "dt", "kinetic", "elastic", "potential", "dissipated", "total", "work",
-            "px", "py", "pz", "lx", "ly", "lz", "min_volume_ratio", "max_volume_ratio", "inverted",
-            "newton_iterations", "linear_iterations", "seconds"};
+    return {"step",
+            "time",
+            "dt",
+            "kinetic",
+            "elastic",
+            "potential",
+            "dissipated",
+            "total",
+            "work",
+            "px",
+            "py",
+            "pz",
+            "lx",
+            "ly",
+            "lz",
+            "min_volume_ratio",
+            "max_volume_ratio",
+            "inverted",
+            "newton_iterations",
+            "linear_iterations",
+            "seconds"};
   }
 
 
-
-  std::vector<double>
-  Measurement::row() const
+  std::vector<double> Measurement::row() const
   {
     const auto &p = linear_momentum, &l = angular_momentum;
-    return {double(step), time, dt, kinetic, elastic, potential, dissipated, total, work,
-            p[0], p[1], p[2], l[0], l[1], l[2], min_volume_ratio, max_volume_ratio, double(inverted),
-            double(newton_iterations), double(linear_iterations), seconds};
+    return {double(step),
+            time,
+            dt,
+            kinetic,
+            elastic,
+            potential,
+            dissipated,
+            total,
+            work,
+            p[0],
+            p[1],
+            p[2],
+            l[0],
+            l[1],
+            l[2],
+            min_volume_ratio,
+            max_volume_ratio,
+            double(inverted),
+            double(newton_iterations),
+            double(linear_iterations),
+            seconds};
   }
-
 
 
   Diagnostics::Diagnostics(const Body &body, const Loads &loads, const bool stationary)
     : body(body)
     , loads(loads)
     , stationary(stationary)
-  {}
-
-
-
-  Measurement
-  Diagnostics::measure(const unsigned int step,
-                       const double       time,
-                       const double       seconds,
-                       const State       &state,
-                       const StepReport  &report)
   {
-    const bool        moving = state.n_blocks() > 1;
+  }
+
+
+  Measurement Diagnostics::measure(const unsigned int step,
+                                   const double time,
+                                   const double seconds,
+                                   const State &state,
+                                   const StepReport &report)
+  {
+    const bool moving = state.n_blocks() > 1;
     const GhostValues displacement(state.block(0));
     const GhostValues velocity(state.block(moving ? 1 : 0));
-    const CellSums    local =
+    const CellSums local =
       body.tetrahedra->sums(displacement.data(), moving ? velocity.data() : nullptr);
 
-    const MPI_Comm      communicator = body.mesh.communicator;
-    std::vector<double> sums         = {local.kinetic, local.elastic, double(local.inverted)};
+    const MPI_Comm communicator = body.mesh.communicator;
+    std::vector<double> sums    = {local.kinetic, local.elastic, double(local.inverted)};
     sums.insert(sums.end(), local.linear_momentum.begin(), local.linear_momentum.end());
     sums.insert(sums.end(), local.angular_momentum.begin(), local.angular_momentum.end());
     std::vector<double> total(sums.size());

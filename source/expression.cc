@@ -4,7 +4,7 @@
 
 #include <deal.II/base/utilities.h>
 
-#include <cmath>
+#include <iostream>
 #include <regex>
 #include <sstream>
 
@@ -13,8 +13,7 @@ namespace Supple
   namespace
   {
     /** What is wrong, without deal.II's frame around it. */
-    std::string
-    reason(const dealii::ExceptionBase &exception)
+    std::string reason(const dealii::ExceptionBase &exception)
     {
       std::ostringstream text;
       exception.print_info(text);
@@ -24,8 +23,27 @@ namespace Supple
         return found[1];
       return dealii::Utilities::trim(all);
     }
-  } // namespace
 
+
+    /** deal.II prints what muParser says before it throws the same. */
+    class SilentErrors
+    {
+    public:
+      SilentErrors()
+        : original(std::cerr.rdbuf(nullptr))
+      {
+      }
+
+      ~SilentErrors()
+      {
+        std::cerr.rdbuf(original);
+        std::cerr.clear();
+      }
+
+    private:
+      std::streambuf *const original;
+    };
+  } // namespace
 
 
   Expression::Expression(const std::string &text,
@@ -45,6 +63,7 @@ namespace Supple
     time_dependent = std::regex_search(text, std::regex("\\bt\\b"));
 
     const std::map<std::string, double> constants = {{"pi", dealii::numbers::PI}};
+    const SilentErrors silence;
     try
       {
         function = std::make_unique<dealii::FunctionParser<3>>(n_components);
@@ -54,25 +73,25 @@ namespace Supple
       }
     catch (const dealii::ExceptionBase &exception)
       {
-        throw InputError(origin + ": " + reason(exception) +
-                         "\nAn expression uses x, y, z, t, pi, numbers, + - * / ^, comparisons, && ||, "
-                         "if(condition, a, b) and functions such as sin, exp, sqrt, min, max.");
+        throw InputError(
+          origin + ": " + reason(exception) +
+          "\nAn expression uses x, y, z, t, pi, numbers, + - * / ^, comparisons, && ||, "
+          "if(condition, a, b) and functions such as sin, exp, sqrt, min, max.");
       }
   }
 
 
-
-  double
-  Expression::value(const dealii::Point<3> &point, const double time, const unsigned int component) const
+  double Expression::value(const dealii::Point<3> &point,
+                           const double time,
+                           const unsigned int component) const
   {
     function->set_time(time);
     return function->value(point, component);
   }
 
 
-
-  dealii::Tensor<1, 3>
-  Expression::vector_value(const dealii::Point<3> &point, const double time) const
+  dealii::Tensor<1, 3> Expression::vector_value(const dealii::Point<3> &point,
+                                                const double time) const
   {
     dealii::Tensor<1, 3> result;
     for (unsigned int c = 0; c < 3; ++c)

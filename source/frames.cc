@@ -17,9 +17,7 @@ namespace Supple
 {
   using namespace dealii;
 
-  Frames::Frames(const Body             &body,
-                 const OutputParameters &parameters,
-                 const std::string      &folder)
+  Frames::Frames(const Body &body, const OutputParameters &parameters, const std::string &folder)
     : body(body)
     , parameters(parameters)
     , folder(folder)
@@ -28,9 +26,7 @@ namespace Supple
   }
 
 
-
-  bool
-  Frames::has_moved(const Vector &displacement) const
+  bool Frames::has_moved(const Vector &displacement) const
   {
     double farthest = 0.;
     for (unsigned int node = 0; node < body.n_owned; ++node)
@@ -47,9 +43,7 @@ namespace Supple
   }
 
 
-
-  bool
-  Frames::volume_has_changed(const Measurement &now) const
+  bool Frames::volume_has_changed(const Measurement &now) const
   {
     return now.max_volume_ratio > max_volume_ratio + parameters.volume_ratio_change ||
            now.min_volume_ratio < min_volume_ratio - parameters.volume_ratio_change ||
@@ -57,9 +51,7 @@ namespace Supple
   }
 
 
-
-  bool
-  Frames::due(const State &state, const Measurement &now) const
+  bool Frames::due(const State &state, const Measurement &now) const
   {
     if (records.empty())
       return true;
@@ -86,17 +78,15 @@ namespace Supple
   }
 
 
-
-  void
-  Frames::write(const State &state, const Measurement &now)
+  void Frames::write(const State &state, const Measurement &now)
   {
     if (!records.empty() && now.step == last.step)
       return;
     const std::string name = "frame_" + Utilities::int_to_string(n_written(), 4);
     write_vtu(state, now, name);
 
-    const bool        first    = records.empty();
-    const bool        parallel = Utilities::MPI::n_mpi_processes(body.mesh.communicator) > 1;
+    const bool first    = records.empty();
+    const bool parallel = Utilities::MPI::n_mpi_processes(body.mesh.communicator) > 1;
     records.emplace_back(now.time, "solution/" + name + (parallel ? ".pvtu" : ".vtu"));
     if (Utilities::MPI::this_mpi_process(body.mesh.communicator) == 0)
       {
@@ -105,17 +95,17 @@ namespace Supple
         write_whole_file(folder + "/solution.pvd", record.str());
       }
 
-    min_volume_ratio  = first ? now.min_volume_ratio : std::min(min_volume_ratio, now.min_volume_ratio);
-    max_volume_ratio  = first ? now.max_volume_ratio : std::max(max_volume_ratio, now.max_volume_ratio);
+    min_volume_ratio =
+      first ? now.min_volume_ratio : std::min(min_volume_ratio, now.min_volume_ratio);
+    max_volume_ratio =
+      first ? now.max_volume_ratio : std::max(max_volume_ratio, now.max_volume_ratio);
     inverted          = inverted || now.inverted > 0;
     last              = now;
     last_displacement = state.block(0);
   }
 
 
-
-  void
-  Frames::write_vtu(const State &state, const Measurement &now, const std::string &name)
+  void Frames::write_vtu(const State &state, const Measurement &now, const std::string &name)
   {
     DataOut<3> data;
     data.attach_dof_handler(body.dof_handler);
@@ -135,8 +125,8 @@ namespace Supple
                              vector_valued);
       }
 
-    const std::vector<CellState> states   = body.tetrahedra->states(state.block(0).begin());
-    const unsigned int           n_active = body.mesh.triangulation.n_active_cells();
+    const std::vector<CellState> states = body.tetrahedra->states(state.block(0).begin());
+    const unsigned int n_active         = body.mesh.triangulation.n_active_cells();
     dealii::Vector<float> volume_ratio(n_active), von_mises(n_active), angle(n_active),
       material(n_active);
     for (std::size_t c = 0; c < states.size(); ++c)
@@ -168,7 +158,7 @@ namespace Supple
 
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(body.mesh.communicator);
     const unsigned int rank    = Utilities::MPI::this_mpi_process(body.mesh.communicator);
-    const auto         piece   = [&](const unsigned int r) {
+    const auto piece           = [&](const unsigned int r) {
       return n_ranks == 1 ? name + ".vtu" : name + "." + std::to_string(r) + ".vtu";
     };
     std::ostringstream content;

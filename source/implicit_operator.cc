@@ -4,10 +4,10 @@
 
 namespace Supple
 {
-  ImplicitOperator::ImplicitOperator(const Body        &body,
+  ImplicitOperator::ImplicitOperator(const Body &body,
                                      const Constraints &constraints,
-                                     const Parameters  &parameters,
-                                     Effort            &effort)
+                                     const Parameters &parameters,
+                                     Effort &effort)
     : body(body)
     , constraints(constraints)
     , damping(parameters.damping)
@@ -25,10 +25,8 @@ namespace Supple
   }
 
 
-
   /** A node that is held in all directions is coupled to no other. */
-  SymmetricPattern
-  ImplicitOperator::make_pattern() const
+  SymmetricPattern ImplicitOperator::make_pattern() const
   {
     std::vector<std::vector<std::uint32_t>> columns(body.n_local);
     for (const auto &nodes : body.cell_nodes)
@@ -53,9 +51,7 @@ namespace Supple
   }
 
 
-
-  void
-  ImplicitOperator::find_masked_entries()
+  void ImplicitOperator::find_masked_entries()
   {
     for (const unsigned int dof : constraints.owned())
       {
@@ -76,11 +72,9 @@ namespace Supple
   }
 
 
-
-  void
-  ImplicitOperator::assemble(const double mass_factor,
-                             const double stiffness_factor,
-                             const double diagonal_term)
+  void ImplicitOperator::assemble(const double mass_factor,
+                                  const double stiffness_factor,
+                                  const double diagonal_term)
   {
     const PhaseTimer timer(effort, Phase::assembly);
     ++effort.assemblies;
@@ -98,9 +92,7 @@ namespace Supple
   }
 
 
-
-  void
-  ImplicitOperator::assemble(const double gamma)
+  void ImplicitOperator::assemble(const double gamma)
   {
     assemble(1. + gamma * damping.mass_factor,
              gamma * gamma + gamma * damping.stiffness_factor,
@@ -108,26 +100,20 @@ namespace Supple
   }
 
 
-
-  void
-  ImplicitOperator::assemble_stiffness()
+  void ImplicitOperator::assemble_stiffness()
   {
     assemble(0., 1., 0.);
   }
 
 
-
-  void
-  ImplicitOperator::vmult(Vector &y, const Vector &x) const
+  void ImplicitOperator::vmult(Vector &y, const Vector &x) const
   {
     const GhostValues values(x);
     A.vmult(y.begin(), values.data());
   }
 
 
-
-  void
-  ImplicitOperator::mass_vmult(Vector &y, const Vector &x) const
+  void ImplicitOperator::mass_vmult(Vector &y, const Vector &x) const
   {
     const GhostValues values(x);
     M->vmult(y.begin(), values.data());
@@ -135,9 +121,7 @@ namespace Supple
   }
 
 
-
-  void
-  ImplicitOperator::stiffness_vmult(Vector &y, const Vector &x) const
+  void ImplicitOperator::stiffness_vmult(Vector &y, const Vector &x) const
   {
     const GhostValues values(x);
     sum_into(y, [&](double *sum) { body.tetrahedra->add_stiffness_product(values.data(), sum); });

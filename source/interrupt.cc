@@ -10,13 +10,11 @@ namespace Supple
   {
     volatile std::sig_atomic_t signal_received = 0; // a signal handler can reach nothing else
 
-    void
-    note_signal(const int signal)
+    void note_signal(const int signal)
     {
       signal_received = signal;
     }
   } // namespace
-
 
 
   InterruptGuard::InterruptGuard()
@@ -27,7 +25,6 @@ namespace Supple
   }
 
 
-
   InterruptGuard::~InterruptGuard()
   {
     std::signal(SIGINT, SIG_DFL);
@@ -35,9 +32,7 @@ namespace Supple
   }
 
 
-
-  bool
-  InterruptGuard::requested(const MPI_Comm communicator) const
+  bool InterruptGuard::requested(const MPI_Comm communicator) const
   {
     const int here = signal_received;
     if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)

@@ -16,16 +16,17 @@ namespace Supple
     constexpr unsigned int largest_for_ldlt    = 1500;  // degrees of freedom
     constexpr unsigned int largest_for_cholmod = 25000; // degrees of freedom
 
-    Method
-    choose(const ImplicitOperator &A, std::string &reason)
+    Method choose(const ImplicitOperator &A, std::string &reason)
     {
-      const unsigned int n_dofs  = A.body.dof_handler.n_dofs();
-      const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(A.body.mesh.communicator);
-      const std::string  size    = std::to_string(n_dofs) + " degrees of freedom";
+      const unsigned int n_dofs = A.body.dof_handler.n_dofs();
+      const unsigned int n_ranks =
+        dealii::Utilities::MPI::n_mpi_processes(A.body.mesh.communicator);
+      const std::string size = std::to_string(n_dofs) + " degrees of freedom";
       if (n_ranks > 1)
         {
           // ML fails where a process has no rows
-          const bool all_own = dealii::Utilities::MPI::min(A.body.n_owned, A.body.mesh.communicator) > 0;
+          const bool all_own =
+            dealii::Utilities::MPI::min(A.body.n_owned, A.body.mesh.communicator) > 0;
           reason = std::to_string(n_ranks) + " processes" +
                    (all_own ? "" : ", some of which own no vertex");
           return all_own ? Method::cg_ml : Method::cg_jacobi;
@@ -46,10 +47,9 @@ namespace Supple
   } // namespace
 
 
-
   LinearSolver::LinearSolver(const ImplicitOperator &A,
                              const SolverParameters &parameters,
-                             Effort                 &effort)
+                             Effort &effort)
     : A(A)
     , parameters(parameters)
     , effort(effort)
@@ -58,18 +58,19 @@ namespace Supple
   }
 
 
-
-  std::unique_ptr<LinearSolver>
-  LinearSolver::create(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort)
+  std::unique_ptr<LinearSolver> LinearSolver::create(const ImplicitOperator &A,
+                                                     const SolverParameters &parameters,
+                                                     Effort &effort)
   {
     std::string reason = "asked for";
-    Method      method = parameters.method;
+    Method method      = parameters.method;
     if (method == Method::automatic)
       method = choose(A, reason);
 
     const bool direct = method == Method::ldlt || method == Method::cholmod;
     if (direct && dealii::Utilities::MPI::n_mpi_processes(A.body.mesh.communicator) > 1)
-      throw InputError("Solver/Method: ldlt and cholmod work on one process; on several take cg-ml or auto.");
+      throw InputError(
+        "Solver/Method: ldlt and cholmod work on one process; on several take cg-ml or auto.");
 
     std::unique_ptr<LinearSolver> solver;
     switch (method)
@@ -91,18 +92,14 @@ namespace Supple
   }
 
 
-
-  void
-  LinearSolver::prepare(const Vector &displacement)
+  void LinearSolver::prepare(const Vector &displacement)
   {
     const PhaseTimer timer(effort, Phase::solver_setup);
     do_prepare(displacement);
   }
 
 
-
-  unsigned int
-  LinearSolver::solve(Vector &x, const Vector &b)
+  unsigned int LinearSolver::solve(Vector &x, const Vector &b)
   {
     const PhaseTimer timer(effort, Phase::solve);
 

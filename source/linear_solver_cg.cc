@@ -24,18 +24,18 @@ namespace Supple
     public:
       ConjugateGradients(const ImplicitOperator &A,
                          const SolverParameters &parameters,
-                         Effort                 &effort)
+                         Effort &effort)
         : LinearSolver(A, parameters, effort)
-      {}
+      {
+      }
 
     protected:
       Preconditioner preconditioner;
 
     private:
-      unsigned int
-      do_solve(Vector &x, const Vector &b) override
+      unsigned int do_solve(Vector &x, const Vector &b) override
       {
-        SolverControl    control(parameters.iteration_limit, parameters.tolerance * b.l2_norm());
+        SolverControl control(parameters.iteration_limit, parameters.tolerance * b.l2_norm());
         SolverCG<Vector> cg(control, memory);
         try
           {
@@ -44,10 +44,10 @@ namespace Supple
           }
         catch (const SolverControl::NoConvergence &)
           {
-            throw ComputationError("conjugate gradients (" + name() + ") did not reach the relative residual " +
-                                   std::to_string(parameters.tolerance) + " in " +
-                                   std::to_string(control.last_step()) + " iterations; they got to " +
-                                   std::to_string(control.last_value() / b.l2_norm()));
+            throw ComputationError(
+              "conjugate gradients (" + name() + ") did not reach the relative residual " +
+              std::to_string(parameters.tolerance) + " in " + std::to_string(control.last_step()) +
+              " iterations; they got to " + std::to_string(control.last_value() / b.l2_norm()));
           }
         return control.last_step();
       }
@@ -59,8 +59,7 @@ namespace Supple
     class BlockJacobi
     {
     public:
-      void
-      initialize(const SymmetricBlockMatrix &A)
+      void initialize(const SymmetricBlockMatrix &A)
       {
         using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
         inverses.resize(9 * static_cast<std::size_t>(A.pattern.n_owned));
@@ -71,13 +70,12 @@ namespace Supple
           }
       }
 
-      void
-      vmult(Vector &y, const Vector &x) const
+      void vmult(Vector &y, const Vector &x) const
       {
         for (std::size_t i = 0; 9 * i < inverses.size(); ++i)
           for (unsigned int a = 0; a < 3; ++a)
             {
-              const double *row           = &inverses[9 * i + 3 * a];
+              const double *row          = &inverses[9 * i + 3 * a];
               y.local_element(3 * i + a) = row[0] * x.local_element(3 * i) +
                                            row[1] * x.local_element(3 * i + 1) +
                                            row[2] * x.local_element(3 * i + 2);
@@ -94,15 +92,13 @@ namespace Supple
     public:
       using ConjugateGradients<BlockJacobi>::ConjugateGradients;
 
-      std::string
-      name() const override
+      std::string name() const override
       {
         return "cg-jacobi";
       }
 
     private:
-      void
-      do_prepare(const Vector &) override
+      void do_prepare(const Vector &) override
       {
         preconditioner.initialize(A.matrix());
       }
@@ -119,8 +115,7 @@ namespace Supple
         make_pattern();
       }
 
-      std::string
-      name() const override
+      std::string name() const override
       {
         return "cg-ml";
       }
@@ -128,17 +123,16 @@ namespace Supple
     private:
       struct Entry
       {
-        unsigned int  column;   ///< local node
-        const double *block;    ///< in A
-        bool          mirrored; ///< the block is the transpose of what stands in A
+        unsigned int column; ///< local node
+        const double *block; ///< in A
+        bool mirrored;       ///< the block is the transpose of what stands in A
       };
 
       /** Whole rows, as Trilinos wants them, from the half that A keeps. */
-      void
-      find_rows()
+      void find_rows()
       {
-        const SymmetricBlockMatrix &blocks  = A.matrix();
-        const SymmetricPattern     &pattern = blocks.pattern;
+        const SymmetricBlockMatrix &blocks = A.matrix();
+        const SymmetricPattern &pattern    = blocks.pattern;
         rows.resize(pattern.n_owned);
         for (std::size_t i = 0; i < pattern.n_local; ++i)
           {
@@ -154,16 +148,14 @@ namespace Supple
           }
       }
 
-      types::global_dof_index
-      global(const unsigned int dof) const
+      types::global_dof_index global(const unsigned int dof) const
       {
         return A.body.partitioner->local_to_global(dof);
       }
 
-      void
-      make_pattern()
+      void make_pattern()
       {
-        const IndexSet        &owned = A.body.dof_handler.locally_owned_dofs();
+        const IndexSet &owned = A.body.dof_handler.locally_owned_dofs();
         DynamicSparsityPattern sparsity(owned.size(), owned.size(), owned);
         for (unsigned int i = 0; i < rows.size(); ++i)
           for (const Entry &entry : rows[i])
@@ -173,11 +165,10 @@ namespace Supple
         matrix.reinit(owned, owned, sparsity, A.body.mesh.communicator);
       }
 
-      void
-      copy_values()
+      void copy_values()
       {
         std::vector<types::global_dof_index> columns;
-        std::vector<double>                  values;
+        std::vector<double> values;
         for (unsigned int i = 0; i < rows.size(); ++i)
           for (unsigned int a = 0; a < 3; ++a)
             {
@@ -195,30 +186,28 @@ namespace Supple
       }
 
       /** Three translations and three rotations of the deformed body, one after the other. */
-      void
-      find_rigid_motions(const Vector &displacement)
+      void find_rigid_motions(const Vector &displacement)
       {
-        const unsigned int n      = 3 * A.body.n_owned;
-        const Point<3>     center = A.body.mesh.bounding_box.center();
+        const unsigned int n  = 3 * A.body.n_owned;
+        const Point<3> center = A.body.mesh.bounding_box.center();
         rigid_motions.assign(6 * n, 0.);
         for (unsigned int node = 0; node < A.body.n_owned; ++node)
           for (unsigned int i = 0; i < 3; ++i)
             {
               const unsigned int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-              const auto         x = [&](const unsigned int d) {
+              const auto x = [&](const unsigned int d) {
                 return (A.body.positions[node][d] + displacement.local_element(3 * node + d) -
                         center[d]) /
                        A.body.mesh.diameter();
               };
-              const std::size_t dof                  = 3 * node + i;
+              const std::size_t dof             = 3 * node + i;
               rigid_motions[i * n + dof]        = 1.;
               rigid_motions[(3 + i1) * n + dof] = x(i2);
               rigid_motions[(3 + i2) * n + dof] = -x(i1);
             }
       }
 
-      void
-      do_prepare(const Vector &displacement) override
+      void do_prepare(const Vector &displacement) override
       {
         copy_values();
         find_rigid_motions(displacement);
@@ -241,11 +230,10 @@ namespace Supple
       }
 
       std::vector<std::vector<Entry>> rows;
-      TrilinosWrappers::SparseMatrix  matrix;
-      std::vector<double>             rigid_motions;
+      TrilinosWrappers::SparseMatrix matrix;
+      std::vector<double> rigid_motions;
     };
   } // namespace
-
 
 
   std::unique_ptr<LinearSolver>
@@ -255,9 +243,9 @@ namespace Supple
   }
 
 
-
-  std::unique_ptr<LinearSolver>
-  make_cg_jacobi_solver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort)
+  std::unique_ptr<LinearSolver> make_cg_jacobi_solver(const ImplicitOperator &A,
+                                                      const SolverParameters &parameters,
+                                                      Effort &effort)
   {
     return std::make_unique<JacobiSolver>(A, parameters, effort);
   }

@@ -10,13 +10,12 @@ namespace Supple
   {
     using SparseMatrix = Eigen::SparseMatrix<double>;
 
-    void
-    adjust(Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper> &)
-    {}
+    void adjust(Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper> &)
+    {
+    }
 
     /** One ordering tried, the one that was best for meshes of tetrahedra. */
-    void
-    adjust(Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> &factorization)
+    void adjust(Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> &factorization)
     {
       factorization.cholmod().nmethods           = 1;
       factorization.cholmod().method[0].ordering = CHOLMOD_AMD;
@@ -26,8 +25,8 @@ namespace Supple
 
 
     /**
-     * A factorization on one process. The rows of A below the diagonal are, read by columns, the upper triangle
-     * that Eigen wants.
+     * A factorization on one process. The rows of A below the diagonal are, read by columns, the
+     * upper triangle that Eigen wants.
      */
     template <class Factorization>
     class DirectSolver : public LinearSolver
@@ -35,8 +34,8 @@ namespace Supple
     public:
       DirectSolver(const ImplicitOperator &A,
                    const SolverParameters &parameters,
-                   Effort                 &effort,
-                   const std::string      &name)
+                   Effort &effort,
+                   const std::string &name)
         : LinearSolver(A, parameters, effort)
         , solver_name(name)
       {
@@ -45,22 +44,20 @@ namespace Supple
         factorization.analyzePattern(matrix);
       }
 
-      std::string
-      name() const override
+      std::string name() const override
       {
         return solver_name;
       }
 
     private:
-      void
-      make_pattern()
+      void make_pattern()
       {
         const SymmetricPattern &pattern = A.matrix().pattern;
-        const std::size_t       n       = 3 * static_cast<std::size_t>(pattern.n_owned);
+        const std::size_t n             = 3 * static_cast<std::size_t>(pattern.n_owned);
         matrix.resize(n, n);
         matrix.resizeNonZeros(9 * pattern.n_entries() + 6 * pattern.n_owned);
 
-        int  end       = 0;
+        int end        = 0;
         auto row_index = matrix.innerIndexPtr();
         for (unsigned int i = 0; i < pattern.n_owned; ++i)
           for (unsigned int a = 0; a < 3; ++a)
@@ -76,11 +73,10 @@ namespace Supple
         copy_values();
       }
 
-      void
-      copy_values()
+      void copy_values()
       {
-        const SymmetricBlockMatrix &blocks  = A.matrix();
-        const SymmetricPattern     &pattern = blocks.pattern;
+        const SymmetricBlockMatrix &blocks = A.matrix();
+        const SymmetricPattern &pattern    = blocks.pattern;
 
         double *value = matrix.valuePtr();
         for (std::size_t i = 0; i < pattern.n_owned; ++i)
@@ -94,8 +90,7 @@ namespace Supple
             }
       }
 
-      void
-      do_prepare(const Vector &) override
+      void do_prepare(const Vector &) override
       {
         copy_values();
         factorization.factorize(matrix);
@@ -104,8 +99,7 @@ namespace Supple
           throw ComputationError("the matrix is not positive definite (" + solver_name + ")");
       }
 
-      unsigned int
-      do_solve(Vector &x, const Vector &b) override
+      unsigned int do_solve(Vector &x, const Vector &b) override
       {
         Eigen::Map<Eigen::VectorXd>(x.begin(), x.size()) =
           factorization.solve(Eigen::Map<const Eigen::VectorXd>(b.begin(), b.size()));
@@ -113,11 +107,10 @@ namespace Supple
       }
 
       const std::string solver_name;
-      SparseMatrix      matrix;
-      Factorization     factorization;
+      SparseMatrix matrix;
+      Factorization factorization;
     };
   } // namespace
-
 
 
   std::unique_ptr<LinearSolver>
@@ -126,7 +119,6 @@ namespace Supple
     return std::make_unique<DirectSolver<Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper>>>(
       A, parameters, effort, "ldlt");
   }
-
 
 
   std::unique_ptr<LinearSolver>

@@ -23,10 +23,8 @@ namespace Supple
   }
 
 
-
   /** Integrals of the force's linear interpolation times the shape functions. */
-  void
-  Loads::evaluate(const double time) const
+  void Loads::evaluate(const double time) const
   {
     if (evaluated && (!expression.depends_on_time() || time == evaluation_time))
       return;
@@ -43,9 +41,7 @@ namespace Supple
   }
 
 
-
-  const Vector &
-  Loads::force(const double time) const
+  const Vector &Loads::force(const double time) const
   {
     if (!has_body_force())
       return gravity;
@@ -54,18 +50,14 @@ namespace Supple
   }
 
 
-
-  const Vector &
-  Loads::body_force(const double time) const
+  const Vector &Loads::body_force(const double time) const
   {
     evaluate(time);
     return applied;
   }
 
 
-
-  double
-  Loads::potential(const Vector &displacement) const
+  double Loads::potential(const Vector &displacement) const
   {
     return -(gravity * displacement);
   }

@@ -1,7 +1,8 @@
 /**
  * Supple: soft elastic bodies in motion.
  *
- *   .prm -> Parameters -> Mesh -> Body -> ImplicitOperator -> TimeIntegrator -> Diagnostics -> Frames, CSV, summary
+ *   .prm -> Parameters -> Mesh -> Body -> ImplicitOperator -> TimeIntegrator -> Diagnostics ->
+ * Frames, CSV, summary
  */
 
 #include <supple/command_line.h>
@@ -14,8 +15,7 @@
 
 namespace
 {
-  void
-  execute(const Supple::CommandLine &line, const bool root)
+  void execute(const Supple::CommandLine &line, const bool root)
   {
     using Action = Supple::CommandLine::Action;
     switch (line.action)
@@ -35,8 +35,8 @@ namespace
         case Action::check:
         case Action::run:
           {
-            const auto  parameters = Supple::Parameters::read(line.scene, line.overrides);
-            std::string folder     = "output/" + parameters.scene_name;
+            const auto parameters = Supple::Parameters::read(line.scene, line.overrides);
+            std::string folder    = "output/" + parameters.scene_name;
             if (!parameters.output.folder.empty())
               folder = parameters.output.folder;
             if (!line.output.empty())
@@ -81,7 +81,8 @@ main(int argc, char **argv)
     {
       return fail(error, 2);
     }
-  catch (const std::exception &error) // perhaps on this process alone: the others must not wait for it
+  catch (
+    const std::exception &error) // perhaps on this process alone: the others must not wait for it
     {
       std::cerr << "supple: " << error.what() << std::endl;
       MPI_Abort(MPI_COMM_WORLD, 2);

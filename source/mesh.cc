@@ -12,8 +12,7 @@ namespace Supple
   namespace
   {
     /** det [x1-x0, x2-x0, x3-x0], six times the volume. */
-    double
-    six_volumes(const SerialMesh &mesh, const std::array<unsigned int, 4> &cell)
+    double six_volumes(const SerialMesh &mesh, const std::array<unsigned int, 4> &cell)
     {
       const Point<3> &origin = mesh.vertices[cell[0]];
       return cross_product_3d(mesh.vertices[cell[1]] - origin, mesh.vertices[cell[2]] - origin) *
@@ -21,8 +20,7 @@ namespace Supple
     }
 
 
-    void
-    create_triangulation(const SerialMesh &mesh, Triangulation<3> &triangulation)
+    void create_triangulation(const SerialMesh &mesh, Triangulation<3> &triangulation)
     {
       std::vector<CellData<3>> cells;
       cells.reserve(mesh.cells.size());
@@ -46,9 +44,7 @@ namespace Supple
   } // namespace
 
 
-
-  SerialMesh
-  box_mesh(const MeshParameters &parameters)
+  SerialMesh box_mesh(const MeshParameters &parameters)
   {
     SerialMesh mesh;
     const auto [nx, ny, nz] = parameters.cubes;
@@ -71,9 +67,9 @@ namespace Supple
         for (unsigned int i = 0; i < nx; ++i)
           for (const auto &path : paths)
             {
-              const std::array<unsigned int, 3> cube    = {{i, j, k}};
-              std::array<unsigned int, 4>       corners = {{0, path[0], path[1], 7}}, cell;
-              const auto vertex = [&](const unsigned int corner) {
+              const std::array<unsigned int, 3> cube = {{i, j, k}};
+              std::array<unsigned int, 4> corners    = {{0, path[0], path[1], 7}}, cell;
+              const auto vertex                      = [&](const unsigned int corner) {
                 unsigned int index = 0;
                 for (unsigned int d = 0; d < 3; ++d)
                   index += (cube[d] + ((corner >> d) & 1)) * stride[d];
@@ -87,7 +83,8 @@ namespace Supple
                 }
               mesh.cells.push_back(cell);
 
-              // A face opposite to a vertex lies on the boundary if its corners share a coordinate there.
+              // A face opposite to a vertex lies on the boundary if its corners share a coordinate
+              // there.
               for (unsigned int opposite = 0; opposite < 4; ++opposite)
                 for (unsigned int d = 0; d < 3; ++d)
                   for (const unsigned int side : {0u, 1u})
@@ -106,7 +103,6 @@ namespace Supple
             }
     return mesh;
   }
-
 
 
   Mesh::Mesh(const MeshParameters &parameters, const MPI_Comm communicator)
@@ -132,9 +128,7 @@ namespace Supple
   }
 
 
-
-  void
-  Mesh::measure(const SerialMesh &mesh)
+  void Mesh::measure(const SerialMesh &mesh)
   {
     n_cells      = mesh.cells.size();
     n_vertices   = mesh.vertices.size();
@@ -147,20 +141,16 @@ namespace Supple
   }
 
 
-
-  double
-  Mesh::diameter() const
+  double Mesh::diameter() const
   {
     const auto &corners = bounding_box.get_boundary_points();
     return corners.first.distance(corners.second);
   }
 
 
-
-  std::string
-  Mesh::extent() const
+  std::string Mesh::extent() const
   {
-    const auto        &corners = bounding_box.get_boundary_points();
+    const auto &corners = bounding_box.get_boundary_points();
     std::ostringstream text;
     for (unsigned int d = 0; d < 3; ++d)
       text << (d == 0 ? "[" : " x [") << corners.first[d] << ", " << corners.second[d] << "]";

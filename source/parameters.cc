@@ -24,10 +24,10 @@ namespace Supple
       Between(const double lower, const double upper)
         : lower(lower)
         , upper(upper)
-      {}
+      {
+      }
 
-      bool
-      match(const std::string &text) const override
+      bool match(const std::string &text) const override
       {
         if (!Patterns::Double().match(text))
           return false;
@@ -35,8 +35,7 @@ namespace Supple
         return value > lower && value < upper && std::isfinite(value);
       }
 
-      std::string
-      description(const OutputStyle = Machine) const override
+      std::string description(const OutputStyle = Machine) const override
       {
         std::ostringstream text;
         text << "a number greater than " << lower;
@@ -45,8 +44,7 @@ namespace Supple
         return text.str();
       }
 
-      std::unique_ptr<Patterns::PatternBase>
-      clone() const override
+      std::unique_ptr<Patterns::PatternBase> clone() const override
       {
         return std::make_unique<Between>(*this);
       }
@@ -63,10 +61,10 @@ namespace Supple
       AtLeast(const double lower, const bool integer = false)
         : lower(lower)
         , integer(integer)
-      {}
+      {
+      }
 
-      bool
-      match(const std::string &text) const override
+      bool match(const std::string &text) const override
       {
         if (integer ? !Patterns::Integer().match(text) : !Patterns::Double().match(text))
           return false;
@@ -74,23 +72,21 @@ namespace Supple
         return value >= lower && std::isfinite(value);
       }
 
-      std::string
-      description(const OutputStyle = Machine) const override
+      std::string description(const OutputStyle = Machine) const override
       {
         std::ostringstream text;
         text << (integer ? "a whole number, " : "a number, ") << lower << " or greater";
         return text.str();
       }
 
-      std::unique_ptr<Patterns::PatternBase>
-      clone() const override
+      std::unique_ptr<Patterns::PatternBase> clone() const override
       {
         return std::make_unique<AtLeast>(*this);
       }
 
     private:
       const double lower;
-      const bool   integer;
+      const bool integer;
     };
 
 
@@ -98,20 +94,17 @@ namespace Supple
     class Finite : public Patterns::PatternBase
     {
     public:
-      bool
-      match(const std::string &text) const override
+      bool match(const std::string &text) const override
       {
         return Patterns::Double().match(text) && std::isfinite(std::stod(text));
       }
 
-      std::string
-      description(const OutputStyle = Machine) const override
+      std::string description(const OutputStyle = Machine) const override
       {
         return "a number";
       }
 
-      std::unique_ptr<Patterns::PatternBase>
-      clone() const override
+      std::unique_ptr<Patterns::PatternBase> clone() const override
       {
         return std::make_unique<Finite>(*this);
       }
@@ -124,16 +117,15 @@ namespace Supple
     public:
       Triple(const Patterns::PatternBase &pattern)
         : Patterns::List(pattern, 3, 3)
-      {}
+      {
+      }
 
-      std::string
-      description(const OutputStyle style = Machine) const override
+      std::string description(const OutputStyle style = Machine) const override
       {
         return "three values set apart by commas, each " + get_base_pattern().description(style);
       }
 
-      std::unique_ptr<Patterns::PatternBase>
-      clone() const override
+      std::unique_ptr<Patterns::PatternBase> clone() const override
       {
         return std::make_unique<Triple>(get_base_pattern());
       }
@@ -145,16 +137,15 @@ namespace Supple
     public:
       BoundaryIds()
         : Patterns::List(Patterns::Integer(0), 0, Patterns::List::max_int_value)
-      {}
+      {
+      }
 
-      std::string
-      description(const OutputStyle = Machine) const override
+      std::string description(const OutputStyle = Machine) const override
       {
         return "boundary ids set apart by commas, or nothing";
       }
 
-      std::unique_ptr<Patterns::PatternBase>
-      clone() const override
+      std::unique_ptr<Patterns::PatternBase> clone() const override
       {
         return std::make_unique<BoundaryIds>();
       }
@@ -167,16 +158,15 @@ namespace Supple
       OneOf(const std::string &choices)
         : Patterns::Selection(choices)
         , choices(choices)
-      {}
+      {
+      }
 
-      std::string
-      description(const OutputStyle = Machine) const override
+      std::string description(const OutputStyle = Machine) const override
       {
         return "one of " + std::regex_replace(choices, std::regex("\\|"), ", ");
       }
 
-      std::unique_ptr<Patterns::PatternBase>
-      clone() const override
+      std::unique_ptr<Patterns::PatternBase> clone() const override
       {
         return std::make_unique<OneOf>(choices);
       }
@@ -191,16 +181,16 @@ namespace Supple
     public:
       Expressions(const unsigned int n)
         : n(n)
-      {}
-
-      std::string
-      description(const OutputStyle = Machine) const override
       {
-        return n == 1 ? "an expression of x, y, z" : "three expressions of x, y, z, t set apart by semicolons";
       }
 
-      std::unique_ptr<Patterns::PatternBase>
-      clone() const override
+      std::string description(const OutputStyle = Machine) const override
+      {
+        return n == 1 ? "an expression of x, y, z"
+                      : "three expressions of x, y, z, t set apart by semicolons";
+      }
+
+      std::unique_ptr<Patterns::PatternBase> clone() const override
       {
         return std::make_unique<Expressions>(n);
       }
@@ -212,25 +202,24 @@ namespace Supple
 
     const double infinity = std::numeric_limits<double>::infinity();
 
-    std::string
-    full_documentation(const std::string           &meaning,
-                       const std::string           &unit,
-                       const Patterns::PatternBase &pattern)
+    std::string full_documentation(const std::string &meaning,
+                                   const std::string &unit,
+                                   const Patterns::PatternBase &pattern)
     {
-      return meaning + " Unit: " + unit + ". Range: " + pattern.description(Patterns::PatternBase::Text) +
-             ".";
+      return meaning + " Unit: " + unit +
+             ". Range: " + pattern.description(Patterns::PatternBase::Text) + ".";
     }
 
 
-    /** Declares an entry, bound to @p variable, whose documentation tells its unit and range too. */
+    /** Declares an entry, bound to @p variable, whose documentation tells its unit and range too.
+     */
     template <class T>
-    void
-    add(ParameterHandler            &prm,
-        const std::string           &entry,
-        T                           &variable,
-        const std::string           &unit,
-        const Patterns::PatternBase &pattern,
-        const std::string           &meaning)
+    void add(ParameterHandler &prm,
+             const std::string &entry,
+             T &variable,
+             const std::string &unit,
+             const Patterns::PatternBase &pattern,
+             const std::string &meaning)
     {
       prm.add_parameter(entry, variable, full_documentation(meaning, unit, pattern), pattern);
     }
@@ -238,12 +227,11 @@ namespace Supple
 
     /** The same for a choice between names. */
     template <class Enum>
-    void
-    add_choice(ParameterHandler                                &prm,
-               const std::string                               &entry,
-               Enum                                            &variable,
-               const std::vector<std::pair<std::string, Enum>> &choices,
-               const std::string                               &meaning)
+    void add_choice(ParameterHandler &prm,
+                    const std::string &entry,
+                    Enum &variable,
+                    const std::vector<std::pair<std::string, Enum>> &choices,
+                    const std::string &meaning)
     {
       std::string names, preset;
       for (const auto &[name, value] : choices)
@@ -263,40 +251,64 @@ namespace Supple
   } // namespace
 
 
-
-  void
-  MeshParameters::declare(ParameterHandler &prm)
+  void MeshParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Mesh");
-    add(prm, "Box origin", origin, "m", Triple(Finite()), "Corner of the box with the smallest coordinates.");
-    add(prm, "Box size", size, "m", Triple(Between(0, infinity)), "Lengths of the box along x, y and z.");
+    add(prm,
+        "Box origin",
+        origin,
+        "m",
+        Triple(Finite()),
+        "Corner of the box with the smallest coordinates.");
+    add(prm,
+        "Box size",
+        size,
+        "m",
+        Triple(Between(0, infinity)),
+        "Lengths of the box along x, y and z.");
     add(prm,
         "Box cubes",
         cubes,
         "none",
         Triple(AtLeast(1, true)),
-        "Number of cubes along x, y and z; each is cut into six tetrahedra along its diagonal from the smallest "
-        "to the largest coordinates. The faces of the box have the boundary ids 0 (smallest x), 1 (largest x), "
+        "Number of cubes along x, y and z; each is cut into six tetrahedra along its diagonal from "
+        "the smallest "
+        "to the largest coordinates. The faces of the box have the boundary ids 0 (smallest x), 1 "
+        "(largest x), "
         "2, 3 (y), 4, 5 (z).");
     prm.leave_subsection();
   }
 
 
-
-  void
-  MaterialParameters::declare(ParameterHandler &prm)
+  void MaterialParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Material");
     add_choice(prm,
                "Elastic constants",
                constants,
                {{"Young and Poisson", Constants::young_poisson}, {"Lame", Constants::lame}},
-               "Which pair of constants is used: Young modulus and Poisson ratio, or Lame lambda and Lame mu.");
+               "Which pair of constants is used: Young modulus and Poisson ratio, or Lame lambda "
+               "and Lame mu.");
     add(prm, "Young modulus", young, "Pa", Between(0, infinity), "Young's modulus E.");
     add(prm, "Poisson ratio", poisson, "none", Between(-1, 0.5), "Poisson's ratio nu.");
-    add(prm, "Lame lambda", lambda, "Pa", Finite(), "Lame's first parameter; 3 lambda + 2 mu must be positive.");
-    add(prm, "Lame mu", mu, "Pa", Between(0, infinity), "Lame's second parameter, the shear modulus.");
-    add(prm, "Density", density, "kg/m^3", Between(0, infinity), "Mass per volume of the body at rest.");
+    add(prm,
+        "Lame lambda",
+        lambda,
+        "Pa",
+        Finite(),
+        "Lame's first parameter; 3 lambda + 2 mu must be positive.");
+    add(prm,
+        "Lame mu",
+        mu,
+        "Pa",
+        Between(0, infinity),
+        "Lame's second parameter, the shear modulus.");
+    add(prm,
+        "Density",
+        density,
+        "kg/m^3",
+        Between(0, infinity),
+        "Mass per volume of the body at rest.");
     add_choice(prm,
                "Mass",
                lumped,
@@ -306,56 +318,67 @@ namespace Supple
   }
 
 
-
-  void
-  CorotationParameters::declare(ParameterHandler &prm)
+  void CorotationParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Corotation");
-    add_choice(prm,
-               "Rotation",
-               rotation,
-               {{"none", RotationMethod::none},
-                {"gram-schmidt", RotationMethod::gram_schmidt},
-                {"polar", RotationMethod::polar}},
-               "How the rotation of a cell is taken from its deformation gradient. none is linear elasticity, "
-               "right for small rotations only. polar is the nearest rotation. gram-schmidt is there for "
-               "comparison: its force has no energy and depends on the orientation of the axes.");
+    add_choice(
+      prm,
+      "Rotation",
+      rotation,
+      {{"none", RotationMethod::none},
+       {"gram-schmidt", RotationMethod::gram_schmidt},
+       {"polar", RotationMethod::polar}},
+      "How the rotation of a cell is taken from its deformation gradient. none is linear "
+      "elasticity, "
+      "right for small rotations only. polar is the nearest rotation. gram-schmidt is there for "
+      "comparison: its force has no energy and depends on the orientation of the axes.");
     prm.leave_subsection();
   }
 
 
-
-  void
-  DampingParameters::declare(ParameterHandler &prm)
+  void DampingParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Damping");
-    add(prm, "Mass factor", mass_factor, "1/s", AtLeast(0), "Rayleigh damping: a in D = a M + b K'.");
-    add(prm, "Stiffness factor", stiffness_factor, "s", AtLeast(0), "Rayleigh damping: b in D = a M + b K'.");
-    add(prm, "Viscous", viscous, "N s/m", AtLeast(0), "Damping coefficient of each vertex against a resting world.");
+    add(
+      prm, "Mass factor", mass_factor, "1/s", AtLeast(0), "Rayleigh damping: a in D = a M + b K'.");
+    add(prm,
+        "Stiffness factor",
+        stiffness_factor,
+        "s",
+        AtLeast(0),
+        "Rayleigh damping: b in D = a M + b K'.");
+    add(prm,
+        "Viscous",
+        viscous,
+        "N s/m",
+        AtLeast(0),
+        "Damping coefficient of each vertex against a resting world.");
     prm.leave_subsection();
   }
 
 
-
-  bool
-  DampingParameters::any() const
+  bool DampingParameters::any() const
   {
     return mass_factor > 0. || stiffness_factor > 0. || viscous > 0.;
   }
 
 
-
-  void
-  ConstraintParameters::declare(ParameterHandler &prm)
+  void ConstraintParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Constraints");
-    add(prm, "Clamped boundaries", clamped_boundaries, "none", BoundaryIds(), "Boundaries whose vertices keep their place.");
+    add(prm,
+        "Clamped boundaries",
+        clamped_boundaries,
+        "none",
+        BoundaryIds(),
+        "Boundaries whose vertices keep their place.");
     add(prm,
         "Clamped region",
         clamped_region,
         "none",
         Expressions(1),
-        "Vertices at which this expression, such as y > 11.9, is true (not zero) keep their place. Empty: none.");
+        "Vertices at which this expression, such as y > 11.9, is true (not zero) keep their place. "
+        "Empty: none.");
     for (unsigned int i = 0; i < 3; ++i)
       add(prm,
           std::string("Boundaries held along ") + "xyz"[i],
@@ -368,81 +391,106 @@ namespace Supple
   }
 
 
-
-  void
-  LoadParameters::declare(ParameterHandler &prm)
+  void LoadParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Loads");
     add(prm, "Gravity", gravity, "m/s^2", Triple(Finite()), "Acceleration by gravity.");
-    add(prm, "Body force", body_force, "N/m^3", Expressions(3), "Force per volume at rest position and time.");
+    add(prm,
+        "Body force",
+        body_force,
+        "N/m^3",
+        Expressions(3),
+        "Force per volume at rest position and time.");
     prm.leave_subsection();
   }
 
 
-
-  void
-  StartParameters::declare(ParameterHandler &prm)
+  void StartParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Start");
-    add(prm, "Displacement", displacement, "m", Expressions(3), "Displacement at time 0; zero where the body is held.");
-    add(prm, "Velocity", velocity, "m/s", Expressions(3), "Velocity at time 0; zero where the body is held.");
+    add(prm,
+        "Displacement",
+        displacement,
+        "m",
+        Expressions(3),
+        "Displacement at time 0; zero where the body is held.");
+    add(prm,
+        "Velocity",
+        velocity,
+        "m/s",
+        Expressions(3),
+        "Velocity at time 0; zero where the body is held.");
     prm.leave_subsection();
   }
 
 
-
-  void
-  TimeParameters::declare(ParameterHandler &prm)
+  void TimeParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Time");
     add_choice(prm,
                "Problem",
                problem,
                {{"dynamic", Problem::dynamic}, {"static", Problem::stationary}},
-               "Motion in time by backward Euler, or equilibrium under the loads at time 1, which grow in steps.");
+               "Motion in time by backward Euler, or equilibrium under the loads at time 1, which "
+               "grow in steps.");
     add(prm, "Step", step, "s", Between(0, infinity), "Time step of a dynamic problem.");
-    add(prm, "Steps", n_steps, "none", AtLeast(1, true), "Number of time steps, or of load steps of a static problem.");
+    add(prm,
+        "Steps",
+        n_steps,
+        "none",
+        AtLeast(1, true),
+        "Number of time steps, or of load steps of a static problem.");
     add(prm,
         "Newton tolerance",
         newton_tolerance,
         "none",
         Between(0, 1),
-        "A static step is done when the forces out of balance are below this fraction of the loads and reactions.");
-    add(prm, "Newton iterations", newton_limit, "none", AtLeast(1, true), "A static step that needs more has failed.");
+        "A static step is done when the forces out of balance are below this fraction of the loads "
+        "and reactions.");
+    add(prm,
+        "Newton iterations",
+        newton_limit,
+        "none",
+        AtLeast(1, true),
+        "A static step that needs more has failed.");
     prm.leave_subsection();
   }
 
 
-
-  void
-  SolverParameters::declare(ParameterHandler &prm)
+  void SolverParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Solver");
-    add_choice(prm,
-               "Method",
-               method,
-               {{"auto", Method::automatic},
-                {"ldlt", Method::ldlt},
-                {"cholmod", Method::cholmod},
-                {"cg-ml", Method::cg_ml},
-                {"cg-jacobi", Method::cg_jacobi}},
-               "Linear solver: Eigen's simplicial LDL^T (small bodies), CHOLMOD's supernodal Cholesky (middle), "
-               "conjugate gradients with Trilinos ML (large, or several processes) or with the inverted "
-               "diagonal blocks. auto chooses by size.");
+    add_choice(
+      prm,
+      "Method",
+      method,
+      {{"auto", Method::automatic},
+       {"ldlt", Method::ldlt},
+       {"cholmod", Method::cholmod},
+       {"cg-ml", Method::cg_ml},
+       {"cg-jacobi", Method::cg_jacobi}},
+      "Linear solver: Eigen's simplicial LDL^T (small bodies), CHOLMOD's supernodal Cholesky "
+      "(middle), "
+      "conjugate gradients with Trilinos ML (large, or several processes) or with the inverted "
+      "diagonal blocks. auto chooses by size.");
+    add(
+      prm,
+      "Tolerance",
+      tolerance,
+      "none",
+      Between(0, 1),
+      "Conjugate gradients stop when the residual is below this fraction of the right hand side.");
     add(prm,
-        "Tolerance",
-        tolerance,
+        "Iterations",
+        iteration_limit,
         "none",
-        Between(0, 1),
-        "Conjugate gradients stop when the residual is below this fraction of the right hand side.");
-    add(prm, "Iterations", iteration_limit, "none", AtLeast(1, true), "Conjugate gradients that need more have failed.");
+        AtLeast(1, true),
+        "Conjugate gradients that need more have failed.");
     prm.leave_subsection();
   }
 
 
-
-  void
-  OutputParameters::declare(ParameterHandler &prm)
+  void OutputParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Output");
     add(prm,
@@ -458,7 +506,8 @@ namespace Supple
                 {"every", Frames::every},
                 {"interval", Frames::interval},
                 {"none", Frames::none}},
-               "When a frame (VTU) is written: when something has happened, every so many steps, at intervals of time, "
+               "When a frame (VTU) is written: when something has happened, every so many steps, "
+               "at intervals of time, "
                "or never. The first and the last state are always written, unless there are none.");
     add(prm,
         "Motion",
@@ -471,61 +520,78 @@ namespace Supple
         volume_ratio_change,
         "none",
         Between(0, infinity),
-        "Adaptive: a frame is written when the largest or smallest volume ratio passes that of all earlier frames by "
+        "Adaptive: a frame is written when the largest or smallest volume ratio passes that of all "
+        "earlier frames by "
         "this much, and when the first cell is inverted.");
-    add(prm, "Longest interval", longest_interval, "s", AtLeast(0), "Adaptive: longest time without a frame; 0: no limit.");
-    add(prm, "Every", every, "steps", AtLeast(1, true), "Frames = every: number of steps from frame to frame.");
-    add(prm, "Interval", interval, "s", Between(0, infinity), "Frames = interval: time from frame to frame.");
-    add(prm, "History", history, "none", Patterns::Bool(), "Whether history.csv and probes.csv are written.");
+    add(prm,
+        "Longest interval",
+        longest_interval,
+        "s",
+        AtLeast(0),
+        "Adaptive: longest time without a frame; 0: no limit.");
+    add(prm,
+        "Every",
+        every,
+        "steps",
+        AtLeast(1, true),
+        "Frames = every: number of steps from frame to frame.");
+    add(prm,
+        "Interval",
+        interval,
+        "s",
+        Between(0, infinity),
+        "Frames = interval: time from frame to frame.");
+    add(prm,
+        "History",
+        history,
+        "none",
+        Patterns::Bool(),
+        "Whether history.csv and probes.csv are written.");
     prm.leave_subsection();
   }
 
 
-
-  void
-  ProbeParameters::declare(ParameterHandler &prm)
+  void ProbeParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Probes");
     const Patterns::Anything any;
     prm.add_parameter("Points",
                       points,
-                      "Named points, such as tip: 2, 0, 2; corner: 0, 0, 0. The vertex nearest to each is followed. "
+                      "Named points, such as tip: 2, 0, 2; corner: 0, 0, 0. The vertex nearest to "
+                      "each is followed. "
                       "Unit: m. Range: name: x, y, z, set apart by semicolons.",
                       any);
-    prm.add_parameter("Boundaries",
-                      boundaries,
-                      "Named boundaries, such as wall: 3. Mean displacement and velocity of the vertices and the sum "
-                      "of their reactions. Unit: none. Range: name: boundary id, set apart by semicolons.",
-                      any);
+    prm.add_parameter(
+      "Boundaries",
+      boundaries,
+      "Named boundaries, such as wall: 3. Mean displacement and velocity of the vertices and the "
+      "sum "
+      "of their reactions. Unit: none. Range: name: boundary id, set apart by semicolons.",
+      any);
     prm.add_parameter("Regions",
                       regions,
-                      "Named regions, such as end: y < 0.1, as for boundaries. Unit: none. Range: name: expression of x, "
+                      "Named regions, such as end: y < 0.1, as for boundaries. Unit: none. Range: "
+                      "name: expression of x, "
                       "y, z, set apart by semicolons.",
                       any);
     prm.leave_subsection();
   }
 
 
-
-  double
-  MaterialParameters::lame_lambda() const
+  double MaterialParameters::lame_lambda() const
   {
-    return constants == Constants::lame ? lambda :
-                                          young * poisson / ((1. + poisson) * (1. - 2. * poisson));
+    return constants == Constants::lame ? lambda
+                                        : young * poisson / ((1. + poisson) * (1. - 2. * poisson));
   }
 
 
-
-  double
-  MaterialParameters::lame_mu() const
+  double MaterialParameters::lame_mu() const
   {
     return constants == Constants::lame ? mu : young / (2. * (1. + poisson));
   }
 
 
-
-  void
-  Parameters::declare(ParameterHandler &prm)
+  void Parameters::declare(ParameterHandler &prm)
   {
     mesh.declare(prm);
     material.declare(prm);
@@ -541,9 +607,7 @@ namespace Supple
   }
 
 
-
-  void
-  Parameters::check() const
+  void Parameters::check() const
   {
     if (3. * material.lame_lambda() + 2. * material.lame_mu() <= 0.)
       throw InputError(origin("Material/Lame lambda") +
@@ -560,27 +624,29 @@ namespace Supple
   }
 
 
-
   namespace
   {
-    /** What deal.II says of a parameter file, without its frame. */
-    std::string
-    plain_message(const dealii::ExceptionBase &exception)
+    /** What deal.II says of a parameter file, in one line that begins with file:line unless @p
+     * place is given. */
+    std::string plain_message(const dealii::ExceptionBase &exception, const std::string &place = "")
     {
       std::ostringstream text;
       exception.print_info(text);
-      return std::regex_replace(dealii::Utilities::trim(text.str()), std::regex("\\n\\s*"), " ");
+      const std::string line =
+        std::regex_replace(dealii::Utilities::trim(text.str()), std::regex("\\s+"), " ");
+      const std::regex where("^Line <(\\d+)> of file <([^:>]*)>?: ");
+      return std::regex_replace(line, where, place.empty() ? "$2:$1: " : place + ": ") +
+             "\nsupple --print-parameters lists every entry.";
     }
 
 
     /** Finds at which line each entry of a parameter file is set. */
-    std::map<std::string, std::string>
-    find_places(const std::string &file, const std::string &text)
+    std::map<std::string, std::string> find_places(const std::string &file, const std::string &text)
     {
       std::map<std::string, std::string> places;
-      std::vector<std::string>           sections;
-      std::istringstream                 lines(text);
-      std::string                        line;
+      std::vector<std::string> sections;
+      std::istringstream lines(text);
+      std::string line;
       for (unsigned int number = 1; std::getline(lines, line); ++number)
         {
           std::smatch found;
@@ -600,19 +666,19 @@ namespace Supple
     }
 
 
-    void
-    apply_override(ParameterHandler &prm, const std::string &text, std::string &entry)
+    void apply_override(ParameterHandler &prm, const std::string &text, std::string &entry)
     {
-      const std::string right = "--set takes \"Section/Entry=value\", such as --set \"Time/Steps=10\".";
-      const auto        equal = text.find('=');
-      const auto        slash = text.find('/');
+      const std::string right =
+        "--set takes \"Section/Entry=value\", such as --set \"Time/Steps=10\".";
+      const auto equal = text.find('=');
+      const auto slash = text.find('/');
       if (equal == std::string::npos || slash == std::string::npos || slash > equal)
         throw InputError("--set \"" + text + "\": no section, entry or value found. " + right);
 
       const std::string section = dealii::Utilities::trim(text.substr(0, slash));
-      const std::string name    = dealii::Utilities::trim(text.substr(slash + 1, equal - slash - 1));
-      const std::string value   = dealii::Utilities::trim(text.substr(equal + 1));
-      entry                     = section + "/" + name;
+      const std::string name  = dealii::Utilities::trim(text.substr(slash + 1, equal - slash - 1));
+      const std::string value = dealii::Utilities::trim(text.substr(equal + 1));
+      entry                   = section + "/" + name;
       try
         {
           prm.parse_input_from_string("subsection " + section + "\nset " + name + " = " + value +
@@ -620,16 +686,13 @@ namespace Supple
         }
       catch (const dealii::ExceptionBase &exception)
         {
-          throw InputError("--set \"" + text + "\": " + plain_message(exception) +
-                           "\nsupple --print-parameters lists every entry.");
+          throw InputError(plain_message(exception, "--set \"" + text + "\""));
         }
     }
   } // namespace
 
 
-
-  Parameters
-  Parameters::read(const std::string &file, const std::vector<std::string> &overrides)
+  Parameters Parameters::read(const std::string &file, const std::vector<std::string> &overrides)
   {
     // parse_input() makes the file if it is not there
     std::ifstream stream(file);
@@ -638,7 +701,7 @@ namespace Supple
     std::stringstream content;
     content << stream.rdbuf();
 
-    Parameters       parameters;
+    Parameters parameters;
     ParameterHandler prm;
     parameters.declare(prm);
     parameters.scene_name = std::filesystem::path(file).stem().string();
@@ -649,8 +712,7 @@ namespace Supple
       }
     catch (const dealii::ExceptionBase &exception)
       {
-        throw InputError(file + ": " + plain_message(exception) +
-                         "\nsupple --print-parameters lists every entry.");
+        throw InputError(plain_message(exception));
       }
     for (const std::string &text : overrides)
       {
@@ -677,9 +739,7 @@ namespace Supple
   }
 
 
-
-  std::string
-  Parameters::origin(const std::string &entry) const
+  std::string Parameters::origin(const std::string &entry) const
   {
     const auto place = places.find(entry);
     if (place == places.end())
@@ -688,28 +748,23 @@ namespace Supple
   }
 
 
-
-  void
-  Parameters::print(std::ostream &out) const
+  void Parameters::print(std::ostream &out) const
   {
     out << as_used;
   }
 
 
-
-  void
-  Parameters::print_reference(std::ostream &out, const std::string &format)
+  void Parameters::print_reference(std::ostream &out, const std::string &format)
   {
-    Parameters       parameters;
+    Parameters parameters;
     ParameterHandler prm;
     parameters.declare(prm);
     prm.print_parameters(out, format == "json" ? ParameterHandler::JSON : ParameterHandler::PRM);
   }
 
 
-
-  std::vector<std::pair<std::string, std::string>>
-  named_list(const std::string &text, const std::string &origin)
+  std::vector<std::pair<std::string, std::string>> named_list(const std::string &text,
+                                                              const std::string &origin)
   {
     std::vector<std::pair<std::string, std::string>> list;
     for (const std::string &item : dealii::Utilities::split_string_list(text, ';'))

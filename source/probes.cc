@@ -39,7 +39,6 @@ namespace Supple
   }
 
 
-
   void
   Probes::add_point(const std::string &name, const std::string &text, const std::string &origin)
   {
@@ -52,12 +51,13 @@ namespace Supple
       }
     catch (const std::exception &)
       {
-        throw InputError(origin + ": '" + text + "' is no point; three numbers set apart by commas are.");
+        throw InputError(origin + ": '" + text +
+                         "' is no point; three numbers set apart by commas are.");
       }
 
     // The nearest vertex; of several that are equally near the one with the smallest index.
-    double       smallest = std::numeric_limits<double>::max();
-    unsigned int nearest  = numbers::invalid_unsigned_int, nearest_node = 0;
+    double smallest      = std::numeric_limits<double>::max();
+    unsigned int nearest = numbers::invalid_unsigned_int, nearest_node = 0;
     for (unsigned int node = 0; node < body.n_owned; ++node)
       {
         const double distance = body.position(node).distance(point);
@@ -68,10 +68,11 @@ namespace Supple
             nearest_node = node;
           }
       }
-    const MPI_Comm     communicator = body.mesh.communicator;
-    const double       distance     = Utilities::MPI::min(smallest, communicator);
+    const MPI_Comm communicator = body.mesh.communicator;
+    const double distance       = Utilities::MPI::min(smallest, communicator);
     const unsigned int vertex =
-      Utilities::MPI::min(smallest == distance ? nearest : numbers::invalid_unsigned_int, communicator);
+      Utilities::MPI::min(smallest == distance ? nearest : numbers::invalid_unsigned_int,
+                          communicator);
 
     Probe probe;
     probe.name    = name;
@@ -81,8 +82,8 @@ namespace Supple
 
     std::vector<double> position(3);
     for (unsigned int d = 0; d < 3; ++d)
-      position[d] = Utilities::MPI::sum(vertex == nearest ? body.positions[nearest_node][d] : 0.,
-                                        communicator);
+      position[d] =
+        Utilities::MPI::sum(vertex == nearest ? body.positions[nearest_node][d] : 0., communicator);
     std::ostringstream description;
     description << "vertex " << vertex << " at (" << position[0] << ", " << position[1] << ", "
                 << position[2] << "), " << distance << " m from the point asked for";
@@ -91,9 +92,9 @@ namespace Supple
   }
 
 
-
-  void
-  Probes::add_nodes(const std::string &name, const std::string &what, const std::vector<bool> &nodes)
+  void Probes::add_nodes(const std::string &name,
+                         const std::string &what,
+                         const std::vector<bool> &nodes)
   {
     Probe probe;
     probe.name = name;
@@ -106,9 +107,7 @@ namespace Supple
   }
 
 
-
-  std::vector<std::string>
-  Probes::column_names() const
+  std::vector<std::string> Probes::column_names() const
   {
     std::vector<std::string> names = {"step", "time"};
     for (const Probe &probe : probes)
@@ -119,12 +118,10 @@ namespace Supple
   }
 
 
-
-  std::vector<double>
-  Probes::values(const State &state, const Vector &reactions) const
+  std::vector<double> Probes::values(const State &state, const Vector &reactions) const
   {
     std::vector<double> local(9 * probes.size());
-    const bool          moving = state.n_blocks() > 1;
+    const bool moving = state.n_blocks() > 1;
     for (std::size_t p = 0; p < probes.size(); ++p)
       for (const unsigned int node : probes[p].nodes)
         for (unsigned int i = 0; i < 3; ++i)
@@ -141,9 +138,7 @@ namespace Supple
   }
 
 
-
-  std::vector<std::string>
-  Probes::descriptions() const
+  std::vector<std::string> Probes::descriptions() const
   {
     std::vector<std::string> lines;
     for (const Probe &probe : probes)

@@ -7,8 +7,7 @@
 
 namespace Supple
 {
-  std::string
-  readable_duration(const double seconds)
+  std::string readable_duration(const double seconds)
   {
     char text[64];
     if (seconds < 60.)
@@ -16,10 +15,10 @@ namespace Supple
     else if (seconds < 3600.)
       std::snprintf(text, sizeof(text), "%d min %02d s", int(seconds) / 60, int(seconds) % 60);
     else
-      std::snprintf(text, sizeof(text), "%d h %02d min", int(seconds) / 3600, int(seconds) / 60 % 60);
+      std::snprintf(
+        text, sizeof(text), "%d h %02d min", int(seconds) / 3600, int(seconds) / 60 % 60);
     return text;
   }
-
 
 
   Progress::Progress(const unsigned int n_steps, const bool wanted)
@@ -27,12 +26,11 @@ namespace Supple
     , active(wanted && isatty(STDOUT_FILENO))
     , start(Clock::now())
     , last(start)
-  {}
+  {
+  }
 
 
-
-  void
-  Progress::update(const unsigned int step)
+  void Progress::update(const unsigned int step)
   {
     if (!active)
       return;
@@ -43,7 +41,7 @@ namespace Supple
 
     const double seconds = std::chrono::duration<double>(now - start).count();
     const double rate    = step / seconds;
-    char         text[128];
+    char text[128];
     std::snprintf(text,
                   sizeof(text),
                   "\r%3.0f %%  step %u of %u  %.3g steps/s  %s left\033[K",
@@ -57,9 +55,7 @@ namespace Supple
   }
 
 
-
-  void
-  Progress::clear()
+  void Progress::clear()
   {
     if (shown)
       std::cout << "\r\033[K" << std::flush;

@@ -6,13 +6,12 @@
 
 namespace Supple
 {
-  Matrix3<double>
-  nearest_rotation(const Matrix3<double> &F)
+  Matrix3<double> nearest_rotation(const Matrix3<double> &F)
   {
     using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-    Eigen::Matrix3d A     = Eigen::Map<const RowMajor>(F.entries.data());
-    const double    scale = A.cwiseAbs().maxCoeff();
+    Eigen::Matrix3d A  = Eigen::Map<const RowMajor>(F.entries.data());
+    const double scale = A.cwiseAbs().maxCoeff();
     if (!A.allFinite() || scale == 0.)
       return Matrix3<double>::identity();
     A /= scale;
@@ -29,9 +28,7 @@ namespace Supple
   }
 
 
-
-  void
-  repair_rotations(const Matrix3<Pack> &F, Matrix3<Pack> &R)
+  void repair_rotations(const Matrix3<Pack> &F, Matrix3<Pack> &R)
   {
     const Pack defect = orthogonality_defect(R);
     for (unsigned int lane = 0; lane < n_lanes; ++lane)

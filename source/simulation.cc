@@ -15,15 +15,17 @@ namespace Supple
 {
   using namespace dealii;
 
-  Simulation::Simulation(const Parameters  &parameters,
+  Simulation::Simulation(const Parameters &parameters,
                          const std::string &folder,
-                         const bool         quiet,
-                         const MPI_Comm     communicator)
+                         const bool quiet,
+                         const MPI_Comm communicator)
     : parameters(parameters)
     , folder(folder)
     , communicator(communicator)
+    , stationary(parameters.time.problem == TimeParameters::Problem::stationary)
     , talks(!quiet && Utilities::MPI::this_mpi_process(communicator) == 0)
-    , writes(parameters.output.history || parameters.output.frames != OutputParameters::Frames::none)
+    , writes(parameters.output.history ||
+             parameters.output.frames != OutputParameters::Frames::none)
     , start(std::chrono::steady_clock::now())
     , mesh(parameters.mesh, communicator)
     , body(mesh, parameters.material, parameters.corotation.rotation)
@@ -32,14 +34,14 @@ namespace Supple
     , probes(body, parameters)
     , implicit_operator(body, constraints, parameters, effort)
     , solver(LinearSolver::create(implicit_operator, parameters.solver, effort))
-    , diagnostics(body, loads, parameters.time.problem == TimeParameters::Problem::stationary)
+    , diagnostics(body, loads, stationary)
     , progress(parameters.time.n_steps, talks)
   {
-    if (parameters.time.problem == TimeParameters::Problem::stationary &&
-        constraints.n_free_rigid_motions > 0)
+    if (stationary && constraints.n_free_rigid_motions > 0)
       throw InputError("A static scene needs a body that is held: " +
                        std::to_string(constraints.n_free_rigid_motions) +
-                       " of its six rigid motions are free, so that the stiffness is singular. Hold a boundary or a "
+                       " of its six rigid motions are free, so that the stiffness is singular. "
+                       "Hold a boundary or a "
                        "region (subsection Constraints), or make the problem dynamic.");
     create_initial_state();
     const Model model{
@@ -49,20 +51,15 @@ namespace Supple
   }
 
 
-
-  double
-  Simulation::seconds_since_start() const
+  double Simulation::seconds_since_start() const
   {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
 
-
   /** A static problem has no velocity, so its state has one block only. */
-  void
-  Simulation::create_initial_state()
+  void Simulation::create_initial_state()
   {
-    const bool stationary = parameters.time.problem == TimeParameters::Problem::stationary;
     state.reinit(stationary ? 1 : 2);
     for (unsigned int b = 0; b < state.n_blocks(); ++b)
       body.initialize(state.block(b));
@@ -78,7 +75,8 @@ namespace Supple
           continue;
         for (unsigned int node = 0; node < body.n_owned; ++node)
           for (unsigned int i = 0; i < 3; ++i)
-            state.block(b).local_element(3 * node + i) = expression.value(body.position(node), 0., i);
+            state.block(b).local_element(3 * node + i) =
+              expression.value(body.position(node), 0., i);
         constraints.set_zero(state.block(b));
         if (!std::isfinite(state.block(b).l2_norm()))
           throw InputError(parameters.origin(starts[b].first) +
@@ -87,19 +85,17 @@ namespace Supple
   }
 
 
-
-  void
-  Simulation::print_description() const
+  void Simulation::print_description() const
   {
     if (!talks)
       return;
     const auto line = [](const std::string &name, const std::string &value) {
-      std::cout << "  " << name << std::string(name.size() < 12 ? 12 - name.size() : 1, ' ') << value
-                << '\n';
+      std::cout << "  " << name << std::string(name.size() < 12 ? 12 - name.size() : 1, ' ')
+                << value << '\n';
     };
     std::ostringstream time;
     time << integrator->name() << ", " << parameters.time.n_steps;
-    if (parameters.time.problem == TimeParameters::Problem::dynamic)
+    if (!stationary)
       time << " steps of " << parameters.time.step << " s";
     else
       time << " load steps";
@@ -109,11 +105,13 @@ namespace Supple
     volume << mesh.volume;
 
     std::cout << "Supple " << SUPPLE_VERSION << ", scene " << parameters.scene_name << '\n';
-    line("body", std::to_string(mesh.n_cells) + " tetrahedra, " + std::to_string(mesh.n_vertices) +
-                   " vertices in " + mesh.extent() + " m, " + volume.str() + " m^3");
-    line("unknowns", std::to_string(body.dof_handler.n_dofs()) + ", of which " +
-                       std::to_string(constraints.n_held) + " are held; " +
-                       std::to_string(Utilities::MPI::n_mpi_processes(communicator)) + " process(es)");
+    line("body",
+         std::to_string(mesh.n_cells) + " tetrahedra, " + std::to_string(mesh.n_vertices) +
+           " vertices in " + mesh.extent() + " m, " + volume.str() + " m^3");
+    line("unknowns",
+         std::to_string(body.dof_handler.n_dofs()) + ", of which " +
+           std::to_string(constraints.n_held) + " are held; " +
+           std::to_string(Utilities::MPI::n_mpi_processes(communicator)) + " process(es)");
     line("model", rotations[static_cast<unsigned int>(body.rotation)]);
     line("time", time.str());
     line("solver", solver->name() + " (" + solver->reason + ")");
@@ -123,11 +121,9 @@ namespace Supple
   }
 
 
-
-  void
-  Simulation::open_output()
+  void Simulation::open_output()
   {
-    const bool  root = Utilities::MPI::this_mpi_process(communicator) == 0;
+    const bool root = Utilities::MPI::this_mpi_process(communicator) == 0;
     std::string problem;
     if (root)
       try
@@ -144,7 +140,8 @@ namespace Supple
           write_whole_file(folder + "/parameters.prm", used.str());
           if (parameters.output.history)
             {
-              history = std::make_unique<CsvFile>(folder + "/history.csv", Measurement::column_names());
+              history =
+                std::make_unique<CsvFile>(folder + "/history.csv", Measurement::column_names());
               if (!probes.empty())
                 probe_history =
                   std::make_unique<CsvFile>(folder + "/probes.csv", probes.column_names());
@@ -163,12 +160,10 @@ namespace Supple
   }
 
 
-
-  void
-  Simulation::run()
+  void Simulation::run()
   {
-    print_description();
     open_output();
+    print_description();
     try
       {
         record(StepReport());
@@ -177,19 +172,18 @@ namespace Supple
     catch (const ComputationError &error)
       {
         progress.clear();
+        const std::string time = stationary ? "load factor " : "time ";
         std::ostringstream text;
-        text << "Step " << step + 1 << " (time " << now.time << " to " << now.time + parameters.time.step
-             << ") failed: " << error.what() << ". The results up to time " << now.time << " are in "
-             << folder << ".";
+        text << "Step " << step + 1 << " (" << time << now.time << " to " << time_of(step + 1)
+             << ") failed: " << error.what() << ". The results up to " << time << now.time
+             << " are in " << folder << ".";
         finish("failed: " + text.str());
         throw ComputationError(text.str());
       }
   }
 
 
-
-  void
-  Simulation::time_loop()
+  void Simulation::time_loop()
   {
     const InterruptGuard interrupt;
     while (step < parameters.time.n_steps)
@@ -209,14 +203,15 @@ namespace Supple
   }
 
 
-
-  void
-  Simulation::advance()
+  double Simulation::time_of(const unsigned int step) const
   {
-    const double time = parameters.time.problem == TimeParameters::Problem::dynamic ?
-                          (step + 1) * parameters.time.step :
-                          (step + 1.) / parameters.time.n_steps;
+    return stationary ? double(step) / parameters.time.n_steps : step * parameters.time.step;
+  }
 
+
+  void Simulation::advance()
+  {
+    const double time       = time_of(step + 1);
     const StepReport report = integrator->advance(state, time, writes);
     ++step;
     now.step = step;
@@ -226,15 +221,14 @@ namespace Supple
   }
 
 
-
-  void
-  Simulation::record(const StepReport &report)
+  void Simulation::record(const StepReport &report)
   {
     if (!writes)
       return;
     {
       const PhaseTimer timer(effort, Phase::diagnostics);
-      now = diagnostics.measure(step, now.time, seconds_since_start() - setup_seconds, state, report);
+      now =
+        diagnostics.measure(step, now.time, seconds_since_start() - setup_seconds, state, report);
       largest_motion = std::max(largest_motion, state.block(0).linfty_norm());
     }
     const PhaseTimer timer(effort, Phase::output);
@@ -243,7 +237,7 @@ namespace Supple
     if (parameters.output.history && !probes.empty())
       {
         std::vector<double> row = {double(step), now.time};
-        const auto          values = probes.values(state, integrator->reactions());
+        const auto values       = probes.values(state, integrator->reactions());
         row.insert(row.end(), values.begin(), values.end());
         if (probe_history)
           probe_history->write_row(row);
@@ -253,9 +247,7 @@ namespace Supple
   }
 
 
-
-  void
-  Simulation::finish(const std::string &status)
+  void Simulation::finish(const std::string &status)
   {
     if (frames)
       {
@@ -283,10 +275,11 @@ namespace Supple
 
     if (talks && status == "done")
       {
-        std::cout << "done: " << step << " steps in " << readable_duration(summary.run_seconds) << ", "
-                  << std::lround(step / summary.run_seconds) << " steps/s";
+        std::cout << "done: " << step << " steps in " << readable_duration(summary.run_seconds)
+                  << ", " << std::lround(step / summary.run_seconds) << " steps/s";
         if (implicit_operator.has_mass())
-          std::cout << "; estimated error " << error_estimate << " m, motion " << largest_motion << " m";
+          std::cout << "; estimated error " << error_estimate << " m, motion " << largest_motion
+                    << " m";
         std::cout << "; " << summary.frames << " frames in " << folder << std::endl;
       }
   }

@@ -18,18 +18,14 @@ namespace Supple
   }
 
 
-
-  std::string
-  StaticEquilibrium::name() const
+  std::string StaticEquilibrium::name() const
   {
-    return model.body.rotation == RotationMethod::none ? "static, one linear solution a load step" :
-                                                         "static, Newton's method in load steps";
+    return model.body.rotation == RotationMethod::none ? "static, one linear solution a load step"
+                                                       : "static, Newton's method in load steps";
   }
 
 
-
-  void
-  StaticEquilibrium::update_residual(const Vector &displacement, const double load_factor)
+  void StaticEquilibrium::update_residual(const Vector &displacement, const double load_factor)
   {
     model.body.update_rotations(displacement, model.effort);
     model.body.internal_force(residual, displacement, model.effort);
@@ -37,9 +33,7 @@ namespace Supple
   }
 
 
-
-  double
-  StaticEquilibrium::energy(const Vector &displacement, const double load_factor) const
+  double StaticEquilibrium::energy(const Vector &displacement, const double load_factor) const
   {
     const GhostValues values(displacement);
     const double elastic = model.body.tetrahedra->sums(values.data(), nullptr).elastic;
@@ -48,9 +42,7 @@ namespace Supple
   }
 
 
-
-  void
-  StaticEquilibrium::add_correction(Vector &displacement, const double load_factor)
+  void StaticEquilibrium::add_correction(Vector &displacement, const double load_factor)
   {
     if (model.body.rotation != RotationMethod::polar) // linear: exact; Gram-Schmidt: no energy
       {
@@ -75,15 +67,13 @@ namespace Supple
   }
 
 
-
-  StepReport
-  StaticEquilibrium::advance(State &state, const double load_factor, const bool observed)
+  StepReport StaticEquilibrium::advance(State &state, const double load_factor, const bool observed)
   {
-    const TimeParameters &time   = model.parameters.time;
-    const bool            linear = model.body.rotation == RotationMethod::none;
-    Vector               &u      = state.block(0);
-    const Vector          start  = u;
-    StepReport            report;
+    const TimeParameters &time = model.parameters.time;
+    const bool linear          = model.body.rotation == RotationMethod::none;
+    Vector &u                  = state.block(0);
+    const Vector start         = u;
+    StepReport report;
     report.dt        = load_factor - last_load_factor;
     last_load_factor = load_factor;
 

@@ -13,8 +13,7 @@ namespace Supple
 
   namespace
   {
-    Json
-    what_was_built(const Summary &summary, const Model &model)
+    Json what_was_built(const Summary &summary, const Model &model)
     {
       const Effort &effort = model.effort;
       return {{"mass_matrix", model.implicit_operator.has_mass()},
@@ -23,7 +22,8 @@ namespace Supple
               {"assemblies", effort.assemblies},
               {"factorizations", effort.factorizations},
               {"multigrid_hierarchies", effort.hierarchies},
-              {"parallel", dealii::Utilities::MPI::n_mpi_processes(model.body.mesh.communicator) > 1},
+              {"parallel",
+               dealii::Utilities::MPI::n_mpi_processes(model.body.mesh.communicator) > 1},
               {"energies_measured", summary.observed},
               {"history", summary.history},
               {"probes", summary.probes},
@@ -31,8 +31,7 @@ namespace Supple
     }
 
 
-    Json
-    energies(const Measurement &last)
+    Json energies(const Measurement &last)
     {
       return {{"time", last.time},
               {"kinetic", last.kinetic},
@@ -47,30 +46,29 @@ namespace Supple
     }
 
 
-    Json
-    warnings(const Model &model)
+    Json warnings(const Model &model)
     {
       Json list = Json::array();
       if (model.body.rotation == RotationMethod::gram_schmidt)
-        list.push_back("Gram-Schmidt rotations have no elastic energy: 'elastic' is the energy of the same "
-                       "formula, and the balance of energies need not hold. They depend on the axes.");
+        list.push_back(
+          "Gram-Schmidt rotations have no elastic energy: 'elastic' is the energy of the same "
+          "formula, and the balance of energies need not hold. They depend on the axes.");
       const double lambda = model.parameters.material.lame_lambda();
       const double mu     = model.parameters.material.lame_mu();
       const double nu     = lambda / (2. * (lambda + mu));
       if (nu > 0.45)
-        list.push_back("Linear tetrahedra are too stiff (they lock) at a Poisson ratio above 0.45; it is " +
-                       std::to_string(nu) + ".");
+        list.push_back(
+          "Linear tetrahedra are too stiff (they lock) at a Poisson ratio above 0.45; it is " +
+          std::to_string(nu) + ".");
       return list;
     }
   } // namespace
 
 
-
-  std::string
-  Summary::to_json(const Model &model) const
+  std::string Summary::to_json(const Model &model) const
   {
     const Effort &effort = model.effort;
-    Json          json;
+    Json json;
     json["scene"]    = model.parameters.scene_name;
     json["status"]   = status;
     json["warnings"] = warnings(model);
@@ -100,7 +98,8 @@ namespace Supple
     if (model.implicit_operator.has_mass())
       json["error_estimate"] = {{"sum_of_local_errors", error_estimate},
                                 {"largest_displacement", largest_motion},
-                                {"relative", largest_motion > 0. ? error_estimate / largest_motion : 0.}};
+                                {"relative",
+                                 largest_motion > 0. ? error_estimate / largest_motion : 0.}};
     if (observed)
       json["last"] = energies(last);
     json["built"]    = what_was_built(*this, model);

@@ -18,9 +18,7 @@ namespace Supple
   }
 
 
-
-  void
-  CsvFile::write_row(const std::vector<double> &values)
+  void CsvFile::write_row(const std::vector<double> &values)
   {
     std::ostringstream row; // the row goes to the disk in one piece
     row.precision(15);
@@ -33,9 +31,7 @@ namespace Supple
   }
 
 
-
-  void
-  write_whole_file(const std::string &file, const std::string &content)
+  void write_whole_file(const std::string &file, const std::string &content)
   {
     const std::string aside = file + ".partial";
     {

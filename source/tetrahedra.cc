@@ -14,22 +14,19 @@ namespace Supple
 
     using Vector3 = std::array<double, 3>;
 
-    Vector3
-    difference(const Vector3 &a, const Vector3 &b)
+    Vector3 difference(const Vector3 &a, const Vector3 &b)
     {
       return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}};
     }
 
-    Vector3
-    cross(const Vector3 &a, const Vector3 &b)
+    Vector3 cross(const Vector3 &a, const Vector3 &b)
     {
       return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
     }
 
 
     /** Gradients of the four linear shape functions; returns the volume. */
-    double
-    shape_gradients(const std::array<Vector3, 4> &X, std::array<Vector3, 4> &g)
+    double shape_gradients(const std::array<Vector3, 4> &X, std::array<Vector3, 4> &g)
     {
       const Vector3 d1 = difference(X[1], X[0]), d2 = difference(X[2], X[0]),
                     d3 = difference(X[3], X[0]);
@@ -53,10 +50,9 @@ namespace Supple
   } // namespace
 
 
-
   Tetrahedra::Tetrahedra(const std::vector<std::array<double, 3>> &positions,
-                         const std::vector<Tetrahedron>           &cells,
-                         const bool                                lumped_mass)
+                         const std::vector<Tetrahedron> &cells,
+                         const bool lumped_mass)
     : n_cells(cells.size())
     , lumped_mass(lumped_mass)
     , batches((cells.size() + n_lanes - 1) / n_lanes, Batch{}) // empty lanes: zero volume, node 0
@@ -64,8 +60,8 @@ namespace Supple
   {
     for (std::size_t c = 0; c < n_cells; ++c)
       {
-        Batch             &batch = batches[c / n_lanes];
-        const unsigned int lane  = c % n_lanes;
+        Batch &batch            = batches[c / n_lanes];
+        const unsigned int lane = c % n_lanes;
 
         std::array<Vector3, 4> X, g;
         for (unsigned int a = 0; a < 4; ++a)
@@ -92,9 +88,7 @@ namespace Supple
   }
 
 
-
-  void
-  Tetrahedra::connect(const SymmetricPattern &pattern)
+  void Tetrahedra::connect(const SymmetricPattern &pattern)
   {
     slots.resize(batches.size());
     for (std::size_t b = 0; b < batches.size(); ++b)
@@ -107,15 +101,13 @@ namespace Supple
               (empty || node(a) >= pattern.n_owned) ? pattern.n_owned : node(a);
           for (unsigned int p = 0; p < 6; ++p)
             slots[b].lower[p][lane] =
-              empty ? pattern.n_entries() :
-                      pattern.position(node(lower_pairs[p][0]), node(lower_pairs[p][1]));
+              empty ? pattern.n_entries()
+                    : pattern.position(node(lower_pairs[p][0]), node(lower_pairs[p][1]));
         }
   }
 
 
-
-  Tetrahedra::NodalPack
-  Tetrahedra::gather(const Batch &batch, const double *nodal)
+  Tetrahedra::NodalPack Tetrahedra::gather(const Batch &batch, const double *nodal)
   {
     NodalPack values;
     for (unsigned int a = 0; a < 4; ++a)
@@ -131,9 +123,7 @@ namespace Supple
   }
 
 
-
-  void
-  Tetrahedra::scatter(const Batch &batch, const NodalPack &values, double *nodal)
+  void Tetrahedra::scatter(const Batch &batch, const NodalPack &values, double *nodal)
   {
     for (unsigned int a = 0; a < 4; ++a)
       {
@@ -147,9 +137,7 @@ namespace Supple
   }
 
 
-
-  Matrix3<Pack>
-  Tetrahedra::gradient(const Batch &batch, const NodalPack &values)
+  Matrix3<Pack> Tetrahedra::gradient(const Batch &batch, const NodalPack &values)
   {
     Matrix3<Pack> G;
     for (unsigned int i = 0; i < 3; ++i)
@@ -160,9 +148,8 @@ namespace Supple
   }
 
 
-
-  Matrix3<Pack>
-  Tetrahedra::deformation_gradient(const Batch &batch, const double *displacement) const
+  Matrix3<Pack> Tetrahedra::deformation_gradient(const Batch &batch,
+                                                 const double *displacement) const
   {
     Matrix3<Pack> F = gradient(batch, gather(batch, displacement));
     for (unsigned int i = 0; i < 3; ++i)
@@ -171,10 +158,8 @@ namespace Supple
   }
 
 
-
   /** sym(R^T F); the strain is this minus the identity where F is a deformation gradient. */
-  Matrix3<Pack>
-  Tetrahedra::strain(const Matrix3<Pack> &R, const Matrix3<Pack> &F)
+  Matrix3<Pack> Tetrahedra::strain(const Matrix3<Pack> &R, const Matrix3<Pack> &F)
   {
     Matrix3<Pack> S = transposed_product(R, F);
     for (unsigned int i = 0; i < 3; ++i)
@@ -184,9 +169,7 @@ namespace Supple
   }
 
 
-
-  Matrix3<Pack>
-  Tetrahedra::stress(const Batch &batch, const Matrix3<Pack> &strain)
+  Matrix3<Pack> Tetrahedra::stress(const Batch &batch, const Matrix3<Pack> &strain)
   {
     Matrix3<Pack> P;
     for (unsigned int k = 0; k < 9; ++k)
@@ -198,29 +181,25 @@ namespace Supple
   }
 
 
-
-  void
-  Tetrahedra::add_stress_divergence(const std::size_t    b,
-                                    const Matrix3<Pack> &strain,
-                                    double              *force) const
+  void Tetrahedra::add_stress_divergence(const std::size_t b,
+                                         const Matrix3<Pack> &strain,
+                                         double *force) const
   {
-    const Batch  &batch = batches[b];
-    Matrix3<Pack> P     = stress(batch, strain);
+    const Batch &batch = batches[b];
+    Matrix3<Pack> P    = stress(batch, strain);
     if (!rotations.empty())
       P = rotations[b] * P;
     NodalPack f;
     for (unsigned int a = 0; a < 4; ++a)
       for (unsigned int i = 0; i < 3; ++i)
-        f[a][i] = batch.volume *
-                  (P(i, 0) * batch.gradients[a][0] + P(i, 1) * batch.gradients[a][1] +
-                   P(i, 2) * batch.gradients[a][2]);
+        f[a][i] =
+          batch.volume * (P(i, 0) * batch.gradients[a][0] + P(i, 1) * batch.gradients[a][1] +
+                          P(i, 2) * batch.gradients[a][2]);
     scatter(batch, f, force);
   }
 
 
-
-  void
-  Tetrahedra::update_rotations(const RotationMethod method, const double *displacement)
+  void Tetrahedra::update_rotations(const RotationMethod method, const double *displacement)
   {
     rotations.resize(batches.size());
     for (std::size_t b = 0; b < batches.size(); ++b)
@@ -228,9 +207,7 @@ namespace Supple
   }
 
 
-
-  void
-  Tetrahedra::add_internal_force(const double *displacement, double *force) const
+  void Tetrahedra::add_internal_force(const double *displacement, double *force) const
   {
     const Matrix3<Pack> I = Matrix3<Pack>::identity();
     for (std::size_t b = 0; b < batches.size(); ++b)
@@ -244,9 +221,7 @@ namespace Supple
   }
 
 
-
-  void
-  Tetrahedra::add_stiffness_product(const double *w, double *y) const
+  void Tetrahedra::add_stiffness_product(const double *w, double *y) const
   {
     const Matrix3<Pack> I = Matrix3<Pack>::identity();
     for (std::size_t b = 0; b < batches.size(); ++b)
@@ -257,9 +232,7 @@ namespace Supple
   }
 
 
-
-  std::pair<Pack, Pack>
-  Tetrahedra::mass_entries(const Batch &batch) const
+  std::pair<Pack, Pack> Tetrahedra::mass_entries(const Batch &batch) const
   {
     const Pack mass = batch.density * batch.volume;
     if (lumped_mass)
@@ -268,9 +241,7 @@ namespace Supple
   }
 
 
-
-  void
-  Tetrahedra::add_mass_product(const double *w, double *y) const
+  void Tetrahedra::add_mass_product(const double *w, double *y) const
   {
     for (const Batch &batch : batches)
       {
@@ -287,9 +258,7 @@ namespace Supple
   }
 
 
-
-  void
-  Tetrahedra::add_load(const double *force_density, double *force) const
+  void Tetrahedra::add_load(const double *force_density, double *force) const
   {
     for (const Batch &batch : batches)
       {
@@ -305,11 +274,9 @@ namespace Supple
   }
 
 
-
-  void
-  Tetrahedra::add_tangent(const double          mass_factor,
-                          const double          stiffness_factor,
-                          SymmetricBlockMatrix &A) const
+  void Tetrahedra::add_tangent(const double mass_factor,
+                               const double stiffness_factor,
+                               SymmetricBlockMatrix &A) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
       {
@@ -326,29 +293,26 @@ namespace Supple
                         rotations[b](i, 1) * batch.gradients[a][1] +
                         rotations[b](i, 2) * batch.gradients[a][2];
 
-        const auto add_block = [&](const unsigned int a,
-                                   const unsigned int c,
-                                   const auto        &slot,
-                                   double            *values) {
-          const Pack diagonal =
-            mu * (h[a][0] * h[c][0] + h[a][1] * h[c][1] + h[a][2] * h[c][2]) +
-            mass_factor * (a == c ? same : other);
-          alignas(64) double block[9][n_lanes];
-          for (unsigned int i = 0; i < 3; ++i)
-            for (unsigned int j = 0; j < 3; ++j)
+        const auto add_block =
+          [&](const unsigned int a, const unsigned int c, const auto &slot, double *values) {
+            const Pack diagonal = mu * (h[a][0] * h[c][0] + h[a][1] * h[c][1] + h[a][2] * h[c][2]) +
+                                  mass_factor * (a == c ? same : other);
+            alignas(64) double block[9][n_lanes];
+            for (unsigned int i = 0; i < 3; ++i)
+              for (unsigned int j = 0; j < 3; ++j)
+                {
+                  Pack entry = lambda * h[a][i] * h[c][j] + mu * h[c][i] * h[a][j];
+                  if (i == j)
+                    entry += diagonal;
+                  entry.copy_to(block[3 * i + j], stdx::vector_aligned);
+                }
+            for (unsigned int lane = 0; lane < n_lanes; ++lane)
               {
-                Pack entry = lambda * h[a][i] * h[c][j] + mu * h[c][i] * h[a][j];
-                if (i == j)
-                  entry += diagonal;
-                entry.copy_to(block[3 * i + j], stdx::vector_aligned);
+                double *target = values + 9 * static_cast<std::size_t>(slot[lane]);
+                for (unsigned int k = 0; k < 9; ++k)
+                  target[k] += block[k][lane];
               }
-          for (unsigned int lane = 0; lane < n_lanes; ++lane)
-            {
-              double *target = values + 9 * static_cast<std::size_t>(slot[lane]);
-              for (unsigned int k = 0; k < 9; ++k)
-                target[k] += block[k][lane];
-            }
-        };
+          };
 
         for (unsigned int a = 0; a < 4; ++a)
           add_block(a, a, slots[b].diagonal[a], A.diagonal.data());
@@ -358,9 +322,7 @@ namespace Supple
   }
 
 
-
-  void
-  Tetrahedra::add_mass(SymmetricScalarMatrix &M) const
+  void Tetrahedra::add_mass(SymmetricScalarMatrix &M) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
       {
@@ -376,9 +338,7 @@ namespace Supple
   }
 
 
-
-  void
-  Tetrahedra::add_nodal_mass(double *mass) const
+  void Tetrahedra::add_nodal_mass(double *mass) const
   {
     for (const Batch &batch : batches)
       for (unsigned int lane = 0; lane < n_lanes; ++lane)
@@ -387,30 +347,28 @@ namespace Supple
   }
 
 
-
-  CellSums
-  Tetrahedra::sums(const double *displacement, const double *velocity) const
+  CellSums Tetrahedra::sums(const double *displacement, const double *velocity) const
   {
-    CellSums            sums;
+    CellSums sums;
     const Matrix3<Pack> I = Matrix3<Pack>::identity();
-    Pack                kinetic(0.), elastic(0.), inverted(0.);
-    Pack                smallest(sums.min_volume_ratio), largest(sums.max_volume_ratio);
+    Pack kinetic(0.), elastic(0.), inverted(0.);
+    Pack smallest(sums.min_volume_ratio), largest(sums.max_volume_ratio);
 
     std::array<Pack, 3> linear{{0., 0., 0.}}, angular{{0., 0., 0.}};
 
     for (std::size_t b = 0; b < batches.size(); ++b)
       {
-        const Batch         &batch = batches[b];
-        const Matrix3<Pack>  F     = deformation_gradient(batch, displacement);
-        Matrix3<Pack>        e     = strain(rotations.empty() ? I : rotations[b], F);
+        const Batch &batch    = batches[b];
+        const Matrix3<Pack> F = deformation_gradient(batch, displacement);
+        Matrix3<Pack> e       = strain(rotations.empty() ? I : rotations[b], F);
         for (unsigned int i = 0; i < 3; ++i)
           e(i, i) -= 1.;
         const Pack tr = trace(e);
-        elastic += batch.owned * batch.volume *
-                   (batch.mu * norm_square(e) + 0.5 * batch.lambda * tr * tr);
+        elastic +=
+          batch.owned * batch.volume * (batch.mu * norm_square(e) + 0.5 * batch.lambda * tr * tr);
 
-        const Pack ratio   = determinant(F);
-        const auto counted = batch.owned > 0.;
+        const Pack ratio                                   = determinant(F);
+        const auto counted                                 = batch.owned > 0.;
         stdx::where(counted && ratio < smallest, smallest) = ratio;
         stdx::where(counted && ratio > largest, largest)   = ratio;
         stdx::where(counted && !(ratio > 0.), inverted) += 1.;
@@ -423,8 +381,8 @@ namespace Supple
           for (unsigned int a = 0; a < 4; ++a)
             for (unsigned int i = 0; i < 3; ++i)
               x[a][i][lane] += positions[batch.nodes[a][lane]][i];
-        const NodalPack v    = gather(batch, velocity);
-        const Pack      mass = batch.owned * batch.density * batch.volume;
+        const NodalPack v = gather(batch, velocity);
+        const Pack mass   = batch.owned * batch.density * batch.volume;
 
         const auto [same, other] = mass_entries(batch);
         NodalPack momentum; // of each node: the cell's mass matrix times v
@@ -460,22 +418,20 @@ namespace Supple
   }
 
 
-
-  std::vector<CellState>
-  Tetrahedra::states(const double *displacement) const
+  std::vector<CellState> Tetrahedra::states(const double *displacement) const
   {
     std::vector<CellState> states(n_cells);
-    const Matrix3<Pack>    I = Matrix3<Pack>::identity();
+    const Matrix3<Pack> I = Matrix3<Pack>::identity();
     for (std::size_t b = 0; b < batches.size(); ++b)
       {
-        const Matrix3<Pack>  F = deformation_gradient(batches[b], displacement);
+        const Matrix3<Pack> F  = deformation_gradient(batches[b], displacement);
         const Matrix3<Pack> &R = rotations.empty() ? I : rotations[b];
-        Matrix3<Pack>        e = strain(R, F);
+        Matrix3<Pack> e        = strain(R, F);
         for (unsigned int i = 0; i < 3; ++i)
           e(i, i) -= 1.;
 
         Matrix3<Pack> deviator = stress(batches[b], e);
-        const Pack    mean     = trace(deviator) / 3.;
+        const Pack mean        = trace(deviator) / 3.;
         for (unsigned int i = 0; i < 3; ++i)
           deviator(i, i) -= mean;
 
@@ -484,7 +440,7 @@ namespace Supple
         const Pack cosine    = 0.5 * (trace(R) - 1.);
         for (unsigned int lane = 0; lane < n_lanes && b * n_lanes + lane < n_cells; ++lane)
           {
-            const double c                = std::min(1., std::max(-1., double(cosine[lane])));
+            const double c             = std::min(1., std::max(-1., double(cosine[lane])));
             states[b * n_lanes + lane] = {ratio[lane], von_mises[lane], std::acos(c) * 180. / M_PI};
           }
       }

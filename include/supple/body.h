@@ -16,63 +16,57 @@
 namespace Supple
 {
   /**
-   * The elastic body: linear displacements on the mesh, and its cells with their material. A node is a vertex with
-   * its three degrees of freedom, 3 node, 3 node + 1, 3 node + 2; this process's own nodes have the local
-   * numbers 0 to n_owned - 1 and ghosts those up to n_local - 1.
+   * The elastic body: linear displacements on the mesh, and its cells with their material. A node
+   * is a vertex with its three degrees of freedom, 3 node, 3 node + 1, 3 node + 2; this process's
+   * own nodes have the local numbers 0 to n_owned - 1 and ghosts those up to n_local - 1.
    *
-   * Each process holds every cell that touches one of its nodes, so that forces and matrix rows of its own
-   * nodes need no messages but the ghost values of the displacement.
+   * Each process holds every cell that touches one of its nodes, so that forces and matrix rows of
+   * its own nodes need no messages but the ghost values of the displacement.
    */
   class Body
   {
   public:
     Body(const Mesh &mesh, const MaterialParameters &material, RotationMethod rotation);
 
-    const Mesh                    &mesh;
-    const RotationMethod           rotation;
-    const dealii::FESystem<3>      fe;
-    const dealii::MappingFE<3>     mapping;
-    dealii::DoFHandler<3>          dof_handler;
+    const Mesh &mesh;
+    const RotationMethod rotation;
+    const dealii::FESystem<3> fe;
+    const dealii::MappingFE<3> mapping;
+    dealii::DoFHandler<3> dof_handler;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
 
-    unsigned int                                n_owned; ///< nodes
-    unsigned int                                n_local; ///< nodes, ghosts included
-    std::vector<std::array<double, 3>>          positions; ///< at rest [m], of local nodes
-    std::vector<unsigned int>                   serial_vertex; ///< vertex index in the unpartitioned mesh
-    std::vector<std::array<unsigned int, 4>>    cell_nodes; ///< local node numbers
-    std::vector<unsigned int>                   active_cell; ///< active_cell_index() of each cell
+    unsigned int n_owned;                                ///< nodes
+    unsigned int n_local;                                ///< nodes, ghosts included
+    std::vector<std::array<double, 3>> positions;        ///< at rest [m], of local nodes
+    std::vector<unsigned int> serial_vertex;             ///< vertex index in the unpartitioned mesh
+    std::vector<std::array<unsigned int, 4>> cell_nodes; ///< local node numbers
+    std::vector<unsigned int> active_cell;               ///< active_cell_index() of each cell
 
     std::unique_ptr<Tetrahedra> tetrahedra;
 
-    void
-    initialize(Vector &vector) const;
+    void initialize(Vector &vector) const;
 
     /** R of every cell from the displacement; nothing to do for linear elasticity. */
-    void
-    update_rotations(const Vector &displacement, Effort &effort) const;
+    void update_rotations(const Vector &displacement, Effort &effort) const;
 
-    /** f = sum R K (R^T x - X) on owned nodes, held ones included, with the rotations of the last update. */
-    void
-    internal_force(Vector &force, const Vector &displacement, Effort &effort) const;
+    /** f = sum R K (R^T x - X) on owned nodes, held ones included, with the rotations of the last
+     * update. */
+    void internal_force(Vector &force, const Vector &displacement, Effort &effort) const;
 
-    dealii::Point<3>
-    position(unsigned int node) const;
+    dealii::Point<3> position(unsigned int node) const;
 
     /** The nodes of a boundary. @throws InputError beginning with @p origin if there are none. */
-    std::vector<bool>
-    boundary_nodes(unsigned int boundary_id, const std::string &origin) const;
+    std::vector<bool> boundary_nodes(unsigned int boundary_id, const std::string &origin) const;
 
-    /** The nodes where an expression is not zero. @throws InputError beginning with @p origin if there are none. */
-    std::vector<bool>
-    region_nodes(const std::string &expression, const std::string &origin) const;
+    /** The nodes where an expression is not zero. @throws InputError beginning with @p origin if
+     * there are none. */
+    std::vector<bool> region_nodes(const std::string &expression, const std::string &origin) const;
 
   private:
-    void
-    number_nodes();
+    void number_nodes();
 
-    void
-    collect_cells(const MaterialParameters &material);
+    void collect_cells(const MaterialParameters &material);
   };
 } // namespace Supple
 

@@ -18,19 +18,17 @@ namespace Supple
       print_help
     };
 
-    Action                   action = Action::run;
-    std::string              scene;           ///< parameter file
-    std::vector<std::string> overrides;       ///< of --set
-    std::string              output;          ///< of --output, may be empty
-    std::string              format = "prm";  ///< of --print-parameters
-    bool                     quiet  = false;
+    Action action = Action::run;
+    std::string scene;                  ///< parameter file
+    std::vector<std::string> overrides; ///< of --set
+    std::string output;                 ///< of --output, may be empty
+    std::string format = "prm";         ///< of --print-parameters
+    bool quiet         = false;
 
     /** @throws InputError */
-    static CommandLine
-    parse(int argc, char **argv);
+    static CommandLine parse(int argc, char **argv);
 
-    static std::string
-    help();
+    static std::string help();
   };
 } // namespace Supple
 

@@ -1,7 +1,8 @@
 #ifndef supple_compatibility_h
 #define supple_compatibility_h
 
-/** @file What differs between deal.II 9.4 with SUNDIALS 6 (Debian 12) and deal.II 9.6 with SUNDIALS 7 (Debian 13). */
+/** @file What differs between deal.II 9.4 with SUNDIALS 6 (Debian 12) and deal.II 9.6 with SUNDIALS
+ * 7 (Debian 13). */
 
 #include <deal.II/base/config.h>
 
@@ -24,9 +25,9 @@ namespace Supple
 #endif
 
 
-    /** Where ARKode's errors go: into @p message, which must outlive the solver, and not onto the screen. */
-    inline void
-    collect_arkode_errors(void *arkode_memory, std::string &message)
+    /** Where ARKode's errors go: into @p message, which must outlive the solver, and not onto the
+     * screen. */
+    inline void collect_arkode_errors(void *arkode_memory, std::string &message)
     {
 #if DEAL_II_SUNDIALS_VERSION_GTE(7, 0, 0)
       (void)arkode_memory;
@@ -43,8 +44,7 @@ namespace Supple
     }
 
 
-    inline dealii::IndexSet
-    locally_relevant_dofs(const dealii::DoFHandler<3> &dof_handler)
+    inline dealii::IndexSet locally_relevant_dofs(const dealii::DoFHandler<3> &dof_handler)
     {
 #if DEAL_II_VERSION_GTE(9, 6, 0)
       return dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);

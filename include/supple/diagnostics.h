@@ -13,8 +13,8 @@ namespace Supple
   struct Measurement
   {
     unsigned int step = 0;
-    double       time = 0.; ///< [s]; the load factor of a static problem
-    double       dt   = 0.;
+    double time       = 0.; ///< [s]; the load factor of a static problem
+    double dt         = 0.;
 
     double kinetic    = 0.; ///< [J]
     double elastic    = 0.; ///< [J]
@@ -26,26 +26,24 @@ namespace Supple
     std::array<double, 3> linear_momentum{{}};  ///< [kg m/s]
     std::array<double, 3> angular_momentum{{}}; ///< [kg m^2/s]
 
-    double       min_volume_ratio  = 1.;
-    double       max_volume_ratio  = 1.;
+    double min_volume_ratio        = 1.;
+    double max_volume_ratio        = 1.;
     unsigned int inverted          = 0;
     unsigned int newton_iterations = 0;
     unsigned int linear_iterations = 0;
-    double       seconds           = 0.; ///< since the start of the run
+    double seconds                 = 0.; ///< since the start of the run
 
-    static std::vector<std::string>
-    column_names();
+    static std::vector<std::string> column_names();
 
-    std::vector<double>
-    row() const;
+    std::vector<double> row() const;
   };
 
 
   /**
    * Energies, momenta and volumes of the body. In a dynamic problem with linear or polar rotations
    *   total + dissipated - work
-   * stays what it was at the start, up to the tolerance of the linear solver: dissipated is found from what
-   * each step expended, not from this balance.
+   * stays what it was at the start, up to the tolerance of the linear solver: dissipated is found
+   * from what each step expended, not from this balance.
    */
   class Diagnostics
   {
@@ -53,17 +51,20 @@ namespace Supple
     Diagnostics(const Body &body, const Loads &loads, bool stationary);
 
     /** To be called once per step, with the rotations of @p state. */
-    Measurement
-    measure(unsigned int step, double time, double seconds, const State &state, const StepReport &report);
+    Measurement measure(unsigned int step,
+                        double time,
+                        double seconds,
+                        const State &state,
+                        const StepReport &report);
 
   private:
-    const Body  &body;
+    const Body &body;
     const Loads &loads;
-    const bool   stationary;
-    bool         first       = true;
-    double       elastic     = 0.;
-    double       dissipated  = 0.;
-    double       work        = 0.;
+    const bool stationary;
+    bool first        = true;
+    double elastic    = 0.;
+    double dissipated = 0.;
+    double work       = 0.;
   };
 } // namespace Supple
 

@@ -26,14 +26,14 @@ namespace Supple
   /** What a run did: counted and timed by those who do it, read by the summary. */
   struct Effort
   {
-    unsigned long rotations_computed    = 0; ///< cells times updates
-    unsigned long assemblies            = 0; ///< of the implicit operator
-    unsigned long factorizations        = 0; ///< by a direct solver
-    unsigned long hierarchies           = 0; ///< multigrid set-ups
-    unsigned long solves                = 0;
-    unsigned long linear_iterations     = 0;
-    unsigned long newton_iterations     = 0;
-    double        max_relative_residual = 0.; ///< true residual over right hand side, worst solve
+    unsigned long rotations_computed = 0; ///< cells times updates
+    unsigned long assemblies         = 0; ///< of the implicit operator
+    unsigned long factorizations     = 0; ///< by a direct solver
+    unsigned long hierarchies        = 0; ///< multigrid set-ups
+    unsigned long solves             = 0;
+    unsigned long linear_iterations  = 0;
+    unsigned long newton_iterations  = 0;
+    double max_relative_residual     = 0.; ///< true residual over right hand side, worst solve
 
     std::array<double, phase_names.size()> seconds{{}};
   };
@@ -46,20 +46,19 @@ namespace Supple
     PhaseTimer(Effort &effort, const Phase phase)
       : seconds(effort.seconds[static_cast<unsigned int>(phase)])
       , start(std::chrono::steady_clock::now())
-    {}
+    {
+    }
 
     ~PhaseTimer()
     {
-      seconds +=
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
 
-    PhaseTimer(const PhaseTimer &) = delete;
-    PhaseTimer &
-    operator=(const PhaseTimer &) = delete;
+    PhaseTimer(const PhaseTimer &)            = delete;
+    PhaseTimer &operator=(const PhaseTimer &) = delete;
 
   private:
-    double                                     &seconds;
+    double &seconds;
     const std::chrono::steady_clock::time_point start;
   };
 } // namespace Supple

@@ -6,7 +6,8 @@
 
 namespace Supple
 {
-  /** What the user gave is wrong. Thrown on all processes alike; the program ends with exit status 1. */
+  /** What the user gave is wrong. Thrown on all processes alike; the program ends with exit
+   * status 1. */
   class InputError : public std::runtime_error
   {
   public:
@@ -15,8 +16,8 @@ namespace Supple
 
 
   /**
-   * The computation failed. Thrown on all processes alike; the program ends with exit status 2, and what was
-   * written stays readable.
+   * The computation failed. Thrown on all processes alike; the program ends with exit status 2, and
+   * what was written stays readable.
    */
   class ComputationError : public std::runtime_error
   {
@@ -33,7 +34,8 @@ namespace Supple
   };
 
 
-  /** Results can't be written any more. Thrown on one process alone; the program ends with exit status 2. */
+  /** Results can't be written any more. Thrown on one process alone; the program ends with exit
+   * status 2. */
   class WriteError : public std::runtime_error
   {
   public:

@@ -9,8 +9,8 @@
 namespace Supple
 {
   /**
-   * A muParser expression of x, y, z [m] and t [s], with one or three components set apart by semicolons.
-   * Written wrongly it is refused here and not at its first use.
+   * A muParser expression of x, y, z [m] and t [s], with one or three components set apart by
+   * semicolons. Written wrongly it is refused here and not at its first use.
    */
   class Expression
   {
@@ -23,30 +23,26 @@ namespace Supple
      */
     Expression(const std::string &text, unsigned int n_components, const std::string &origin);
 
-    double
-    value(const dealii::Point<3> &point, double time, unsigned int component = 0) const;
+    double value(const dealii::Point<3> &point, double time, unsigned int component = 0) const;
 
-    dealii::Tensor<1, 3>
-    vector_value(const dealii::Point<3> &point, double time) const;
+    dealii::Tensor<1, 3> vector_value(const dealii::Point<3> &point, double time) const;
 
     /** True for "0" and "0; 0; 0": nothing to evaluate. */
-    bool
-    is_zero() const
+    bool is_zero() const
     {
       return zero;
     }
 
-    bool
-    depends_on_time() const
+    bool depends_on_time() const
     {
       return time_dependent;
     }
 
   private:
     std::unique_ptr<dealii::FunctionParser<3>> function;
-    unsigned int                               n_components;
-    bool                                       zero;
-    bool                                       time_dependent;
+    unsigned int n_components;
+    bool zero;
+    bool time_dependent;
   };
 } // namespace Supple
 

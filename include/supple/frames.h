@@ -13,41 +13,37 @@ namespace Supple
   class Frames
   {
   public:
-    /** @param folder of the results; solution.pvd goes there and VTU files into solution/ below it */
+    /** @param folder of the results; solution.pvd goes there and VTU files into solution/ below it
+     */
     Frames(const Body &body, const OutputParameters &parameters, const std::string &folder);
 
     /** Whether something has happened that should be seen. */
-    bool
-    due(const State &state, const Measurement &now) const;
+    bool due(const State &state, const Measurement &now) const;
 
-    /** Writes the state, unless it was written already. The rotations must be those of the state. */
-    void
-    write(const State &state, const Measurement &now);
+    /** Writes the state, unless it was written already. The rotations must be those of the state.
+     */
+    void write(const State &state, const Measurement &now);
 
-    unsigned int
-    n_written() const
+    unsigned int n_written() const
     {
       return records.size();
     }
 
   private:
-    bool
-    has_moved(const Vector &displacement) const;
+    bool has_moved(const Vector &displacement) const;
 
-    bool
-    volume_has_changed(const Measurement &now) const;
+    bool volume_has_changed(const Measurement &now) const;
 
-    void
-    write_vtu(const State &state, const Measurement &now, const std::string &name);
+    void write_vtu(const State &state, const Measurement &now, const std::string &name);
 
-    const Body                                 &body;
-    const OutputParameters                     &parameters;
-    const std::string                           folder;
+    const Body &body;
+    const OutputParameters &parameters;
+    const std::string folder;
     std::vector<std::pair<double, std::string>> records; ///< time and file of each frame
-    Measurement                                 last;    ///< when the last frame was written
-    Vector                                      last_displacement;
-    double                                      min_volume_ratio, max_volume_ratio; ///< of all frames
-    bool                                        inverted = false;                   ///< in any frame
+    Measurement last;                                    ///< when the last frame was written
+    Vector last_displacement;
+    double min_volume_ratio, max_volume_ratio; ///< of all frames
+    bool inverted = false;                     ///< in any frame
   };
 } // namespace Supple
 

@@ -16,12 +16,11 @@ namespace Supple
 {
   struct MeshParameters
   {
-    dealii::Point<3>            origin{0., 0., 0.};
-    dealii::Point<3>            size{1., 1., 1.};
+    dealii::Point<3> origin{0., 0., 0.};
+    dealii::Point<3> size{1., 1., 1.};
     std::array<unsigned int, 3> cubes{{4, 4, 4}};
 
-    void
-    declare(dealii::ParameterHandler &prm);
+    void declare(dealii::ParameterHandler &prm);
   };
 
 
@@ -34,23 +33,20 @@ namespace Supple
     };
 
     Constants constants = Constants::young_poisson;
-    double    young     = 1e6;
-    double    poisson   = 0.3;
-    double    lambda    = 1e6;
-    double    mu        = 1e6;
-    double    density   = 1000.;
-    bool      lumped    = false;
+    double young        = 1e6;
+    double poisson      = 0.3;
+    double lambda       = 1e6;
+    double mu           = 1e6;
+    double density      = 1000.;
+    bool lumped         = false;
 
-    void
-    declare(dealii::ParameterHandler &prm);
+    void declare(dealii::ParameterHandler &prm);
 
     /** Lame's first parameter [Pa], from whichever constants are given. */
-    double
-    lame_lambda() const;
+    double lame_lambda() const;
 
     /** Shear modulus [Pa]. */
-    double
-    lame_mu() const;
+    double lame_mu() const;
   };
 
 
@@ -58,8 +54,7 @@ namespace Supple
   {
     RotationMethod rotation = RotationMethod::polar;
 
-    void
-    declare(dealii::ParameterHandler &prm);
+    void declare(dealii::ParameterHandler &prm);
   };
 
 
@@ -70,32 +65,28 @@ namespace Supple
     double stiffness_factor = 0.; ///< [s]
     double viscous          = 0.; ///< [N s/m] at each node
 
-    void
-    declare(dealii::ParameterHandler &prm);
+    void declare(dealii::ParameterHandler &prm);
 
-    bool
-    any() const;
+    bool any() const;
   };
 
 
   struct ConstraintParameters
   {
-    std::vector<unsigned int>                clamped_boundaries;
-    std::string                              clamped_region;
+    std::vector<unsigned int> clamped_boundaries;
+    std::string clamped_region;
     std::array<std::vector<unsigned int>, 3> sliding_boundaries; ///< held along x, along y, along z
 
-    void
-    declare(dealii::ParameterHandler &prm);
+    void declare(dealii::ParameterHandler &prm);
   };
 
 
   struct LoadParameters
   {
     dealii::Tensor<1, 3> gravity;
-    std::string          body_force = "0; 0; 0";
+    std::string body_force = "0; 0; 0";
 
-    void
-    declare(dealii::ParameterHandler &prm);
+    void declare(dealii::ParameterHandler &prm);
   };
 
 
@@ -104,8 +95,7 @@ namespace Supple
     std::string displacement = "0; 0; 0";
     std::string velocity     = "0; 0; 0";
 
-    void
-    declare(dealii::ParameterHandler &prm);
+    void declare(dealii::ParameterHandler &prm);
   };
 
 
@@ -117,14 +107,13 @@ namespace Supple
       stationary
     };
 
-    Problem      problem          = Problem::dynamic;
-    double       step             = 0.01;
-    unsigned int n_steps          = 100;
-    double       newton_tolerance = 1e-8;
-    unsigned int newton_limit     = 100;
+    Problem problem           = Problem::dynamic;
+    double step               = 0.01;
+    unsigned int n_steps      = 100;
+    double newton_tolerance   = 1e-8;
+    unsigned int newton_limit = 100;
 
-    void
-    declare(dealii::ParameterHandler &prm);
+    void declare(dealii::ParameterHandler &prm);
   };
 
 
@@ -139,12 +128,11 @@ namespace Supple
       cg_jacobi
     };
 
-    Method       method          = Method::automatic;
-    double       tolerance       = 1e-8;
+    Method method                = Method::automatic;
+    double tolerance             = 1e-8;
     unsigned int iteration_limit = 5000;
 
-    void
-    declare(dealii::ParameterHandler &prm);
+    void declare(dealii::ParameterHandler &prm);
   };
 
 
@@ -158,17 +146,16 @@ namespace Supple
       none
     };
 
-    std::string  folder;
-    Frames       frames              = Frames::adaptive;
-    double       motion              = 0.02;
-    double       volume_ratio_change = 0.1;
-    double       longest_interval    = 0.;
-    unsigned int every               = 1;
-    double       interval            = 0.1;
-    bool         history             = true;
+    std::string folder;
+    Frames frames              = Frames::adaptive;
+    double motion              = 0.02;
+    double volume_ratio_change = 0.1;
+    double longest_interval    = 0.;
+    unsigned int every         = 1;
+    double interval            = 0.1;
+    bool history               = true;
 
-    void
-    declare(dealii::ParameterHandler &prm);
+    void declare(dealii::ParameterHandler &prm);
   };
 
 
@@ -178,28 +165,27 @@ namespace Supple
     std::string boundaries;
     std::string regions;
 
-    void
-    declare(dealii::ParameterHandler &prm);
+    void declare(dealii::ParameterHandler &prm);
   };
 
 
   /**
-   * Everything a scene file can say, one struct per subsection. Nothing else in the program reads a parameter
-   * file.
+   * Everything a scene file can say, one struct per subsection. Nothing else in the program reads a
+   * parameter file.
    */
   struct Parameters
   {
-    MeshParameters       mesh;
-    MaterialParameters   material;
+    MeshParameters mesh;
+    MaterialParameters material;
     CorotationParameters corotation;
-    DampingParameters    damping;
+    DampingParameters damping;
     ConstraintParameters constraints;
-    LoadParameters       loads;
-    StartParameters      start;
-    TimeParameters       time;
-    SolverParameters     solver;
-    OutputParameters     output;
-    ProbeParameters      probes;
+    LoadParameters loads;
+    StartParameters start;
+    TimeParameters time;
+    SolverParameters solver;
+    OutputParameters output;
+    ProbeParameters probes;
 
     std::string scene_name; ///< of the file, without folder and ending
 
@@ -207,37 +193,31 @@ namespace Supple
      * Reads a scene file and applies @p overrides ("Section/Entry=value") on top.
      * @throws InputError with file, line, entry, what was found and what would be right.
      */
-    static Parameters
-    read(const std::string &file, const std::vector<std::string> &overrides = {});
+    static Parameters read(const std::string &file, const std::vector<std::string> &overrides = {});
 
     /** Where an entry ("Section/Entry") got its value, and the value: to begin a message with. */
-    std::string
-    origin(const std::string &entry) const;
+    std::string origin(const std::string &entry) const;
 
     /** Every parameter as used, in a form that read() takes. */
-    void
-    print(std::ostream &out) const;
+    void print(std::ostream &out) const;
 
     /** Every entry with its default, unit, range and meaning; @p format is "prm" or "json". */
-    static void
-    print_reference(std::ostream &out, const std::string &format);
+    static void print_reference(std::ostream &out, const std::string &format);
 
   private:
-    void
-    declare(dealii::ParameterHandler &prm);
+    void declare(dealii::ParameterHandler &prm);
 
-    void
-    check() const;
+    void check() const;
 
     std::map<std::string, std::string> places; ///< entry -> file:line or "--set"
     std::map<std::string, std::string> values; ///< entry -> value as text
-    std::string                        as_used;
+    std::string as_used;
   };
 
 
   /** A run of "name: text; name: text" taken apart, in its order. @throws InputError */
-  std::vector<std::pair<std::string, std::string>>
-  named_list(const std::string &text, const std::string &origin);
+  std::vector<std::pair<std::string, std::string>> named_list(const std::string &text,
+                                                              const std::string &origin);
 } // namespace Supple
 
 #endif

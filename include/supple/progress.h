@@ -6,34 +6,32 @@
 
 namespace Supple
 {
-  /** A line on the terminal that tells how far the run is; silent when the output is no terminal. */
+  /** A line on the terminal that tells how far the run is; silent when the output is no terminal.
+   */
   class Progress
   {
   public:
     Progress(unsigned int n_steps, bool wanted);
 
     /** Called after each step; writes a few times a second. */
-    void
-    update(unsigned int step);
+    void update(unsigned int step);
 
     /** Takes the line away. */
-    void
-    clear();
+    void clear();
 
   private:
     using Clock = std::chrono::steady_clock;
 
-    const unsigned int      n_steps;
-    const bool              active;
+    const unsigned int n_steps;
+    const bool active;
     const Clock::time_point start;
-    Clock::time_point       last;
-    bool                    shown = false;
+    Clock::time_point last;
+    bool shown = false;
   };
 
 
   /** "1 h 02 min", "3 min 20 s" or "4.2 s" */
-  std::string
-  readable_duration(double seconds);
+  std::string readable_duration(double seconds);
 } // namespace Supple
 
 #endif

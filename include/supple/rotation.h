@@ -9,10 +9,11 @@ namespace Supple
    * How the rotation R of a cell is taken from its deformation gradient F.
    *
    * - none: R = I, linear elasticity.
-   * - gram_schmidt: the columns of F made orthonormal one after the other. Quick, but it depends on the
-   *   order of the axes: the force is then neither the gradient of an energy nor frame indifferent.
-   * - polar: the rotation nearest to F, that is the one which maximizes trace(R^T F). For det F > 0 it is the
-   *   rotation of the polar decomposition F = R U.
+   * - gram_schmidt: the columns of F made orthonormal one after the other. Quick, but it depends on
+   * the order of the axes: the force is then neither the gradient of an energy nor frame
+   * indifferent.
+   * - polar: the rotation nearest to F, that is the one which maximizes trace(R^T F). For det F > 0
+   * it is the rotation of the polar decomposition F = R U.
    */
   enum class RotationMethod
   {
@@ -23,17 +24,16 @@ namespace Supple
 
 
   /**
-   * The proper rotation nearest to @p F, for every F: singular value decomposition with the sign of the
-   * smallest singular value chosen so that det R = 1. The identity where F is zero or not finite.
+   * The proper rotation nearest to @p F, for every F: singular value decomposition with the sign of
+   * the smallest singular value chosen so that det R = 1. The identity where F is zero or not
+   * finite.
    */
-  Matrix3<double>
-  nearest_rotation(const Matrix3<double> &F);
+  Matrix3<double> nearest_rotation(const Matrix3<double> &F);
 
 
   /** |R^T R - I|^2, zero for a rotation or reflection, not-a-number if R has one. */
   template <class Number>
-  Number
-  orthogonality_defect(const Matrix3<Number> &R)
+  Number orthogonality_defect(const Matrix3<Number> &R)
   {
     Matrix3<Number> S = transposed_product(R, R);
     for (unsigned int i = 0; i < 3; ++i)
@@ -45,24 +45,23 @@ namespace Supple
   /**
    * The nearest rotation in closed form. The largest root l of
    *   l^4 - 2 |F|^2 l^2 - 8 det(F) l + |F|^4 - 4 |cof F|^2 = 0
-   * is the maximum of trace(R^T F) (Horn 1987, the characteristic polynomial of his 4x4 matrix); Newton's
-   * method from sqrt(3) |F| >= l falls onto it monotonically. Then
-   *   R = ((l^2 + |F|^2) F + 2 l cof F - 2 F F^T F) / (l (l^2 - |F|^2) - 2 det F).
-   * It loses accuracy where the maximum is nearly attained twice (F flat along two axes, or mirrored with
-   * two equal smallest stretches): look at orthogonality_defect() of the result.
+   * is the maximum of trace(R^T F) (Horn 1987, the characteristic polynomial of his 4x4 matrix);
+   * Newton's method from sqrt(3) |F| >= l falls onto it monotonically. Then R = ((l^2 + |F|^2) F +
+   * 2 l cof F - 2 F F^T F) / (l (l^2 - |F|^2) - 2 det F). It loses accuracy where the maximum is
+   * nearly attained twice (F flat along two axes, or mirrored with two equal smallest stretches):
+   * look at orthogonality_defect() of the result.
    */
   template <class Number>
-  Matrix3<Number>
-  closed_form_rotation(const Matrix3<Number> &F)
+  Matrix3<Number> closed_form_rotation(const Matrix3<Number> &F)
   {
     using std::sqrt;
-    using std::experimental::sqrt;
     using std::experimental::all_of;
+    using std::experimental::sqrt;
 
-    const Matrix3<Number> C   = cofactor(F);
-    const Number          f2  = norm_square(F);
-    const Number          c0  = f2 * f2 - 4. * norm_square(C);
-    const Number          det = F(0, 0) * C(0, 0) + F(0, 1) * C(0, 1) + F(0, 2) * C(0, 2);
+    const Matrix3<Number> C = cofactor(F);
+    const Number f2         = norm_square(F);
+    const Number c0         = f2 * f2 - 4. * norm_square(C);
+    const Number det        = F(0, 0) * C(0, 0) + F(0, 1) * C(0, 1) + F(0, 2) * C(0, 2);
 
     Number l = sqrt(3. * f2);
     for (unsigned int iteration = 0; iteration < 20; ++iteration)
@@ -80,17 +79,17 @@ namespace Supple
     const Number inverse = 1. / (l * (l * l - f2) - 2. * det);
 
     const Matrix3<Number> FFtF = F * transposed_product(F, F);
-    Matrix3<Number>       R;
+    Matrix3<Number> R;
     for (unsigned int k = 0; k < 9; ++k)
       R.entries[k] = inverse * (a * F.entries[k] + 2. * l * C.entries[k] - 2. * FFtF.entries[k]);
     return R;
   }
 
 
-  /** The columns of F made orthonormal in their order; the third is the cross product of the first two. */
+  /** The columns of F made orthonormal in their order; the third is the cross product of the first
+   * two. */
   template <class Number>
-  Matrix3<Number>
-  gram_schmidt_rotation(const Matrix3<Number> &F)
+  Matrix3<Number> gram_schmidt_rotation(const Matrix3<Number> &F)
   {
     using std::sqrt;
     using std::experimental::sqrt;
@@ -121,13 +120,11 @@ namespace Supple
 
 
   /** Replaces those lanes of @p R which are no rotation by nearest_rotation(). */
-  void
-  repair_rotations(const Matrix3<Pack> &F, Matrix3<Pack> &R);
+  void repair_rotations(const Matrix3<Pack> &F, Matrix3<Pack> &R);
 
 
   /** A proper rotation in every lane, for every F. */
-  inline Matrix3<Pack>
-  rotation(const RotationMethod method, const Matrix3<Pack> &F)
+  inline Matrix3<Pack> rotation(const RotationMethod method, const Matrix3<Pack> &F)
   {
     Matrix3<Pack> R;
     switch (method)

@@ -24,67 +24,65 @@ namespace Supple
      * @param quiet  no words on the screen
      * @throws InputError
      */
-    Simulation(const Parameters &parameters, const std::string &folder, bool quiet, MPI_Comm communicator);
+    Simulation(const Parameters &parameters,
+               const std::string &folder,
+               bool quiet,
+               MPI_Comm communicator);
 
     /** @throws ComputationError with the step and the time, after all files are complete */
-    void
-    run();
+    void run();
 
     /** What would be run, as a table. */
-    void
-    print_description() const;
+    void print_description() const;
 
   private:
-    void
-    create_initial_state();
+    void create_initial_state();
 
-    void
-    open_output();
+    void open_output();
 
-    void
-    time_loop();
+    void time_loop();
 
-    void
-    advance();
+    void advance();
 
-    void
-    record(const StepReport &report);
+    void record(const StepReport &report);
 
     /** Last frame and summary. */
-    void
-    finish(const std::string &status);
+    void finish(const std::string &status);
 
-    double
-    seconds_since_start() const;
+    double seconds_since_start() const;
 
-    const Parameters   parameters;
-    const std::string  folder;
-    const MPI_Comm     communicator;
-    const bool         talks;   ///< this process writes on the screen
-    const bool         writes;  ///< history or frames are wanted
-    Effort             effort;
+    /** [s]; the load factor of a static problem */
+    double time_of(unsigned int step) const;
+
+    const Parameters parameters;
+    const std::string folder;
+    const MPI_Comm communicator;
+    const bool stationary;
+    const bool talks;  ///< this process writes on the screen
+    const bool writes; ///< history or frames are wanted
+    Effort effort;
     const std::chrono::steady_clock::time_point start;
 
-    const Mesh                      mesh;
-    const Body                      body;
-    const Constraints               constraints;
-    const Loads                     loads;
-    const Probes                    probes;
-    ImplicitOperator                implicit_operator;
-    std::unique_ptr<LinearSolver>   solver;
-    State                           state;
+    const Mesh mesh;
+    const Body body;
+    const Constraints constraints;
+    const Loads loads;
+    const Probes probes;
+    ImplicitOperator implicit_operator;
+    std::unique_ptr<LinearSolver> solver;
+    State state;
     std::unique_ptr<TimeIntegrator> integrator;
-    Diagnostics                     diagnostics;
-    Progress                        progress;
-    std::unique_ptr<CsvFile>        history;
-    std::unique_ptr<CsvFile>        probe_history;
-    std::unique_ptr<Frames>         frames;
+    Diagnostics diagnostics;
+    Progress progress;
+    std::unique_ptr<CsvFile> history;
+    std::unique_ptr<CsvFile> probe_history;
+    std::unique_ptr<Frames> frames;
 
     unsigned int step = 0;
-    Measurement  now;
-    double       error_estimate = 0.; ///< sum of the local errors [m]
-    double       largest_motion = 0.; ///< largest displacement of a vertex so far [m]
-    double       setup_seconds  = 0.;
+    Measurement now;
+    double error_estimate = 0.; ///< sum of the local errors [m]
+    double largest_motion = 0.; ///< largest displacement of a vertex so far [m]
+    double setup_seconds  = 0.;
   };
 } // namespace Supple
 

@@ -6,37 +6,35 @@
 namespace Supple
 {
   /**
-   * Equilibrium f_int(u) = s f under the loads at time 1, with the load factor s growing in steps to 1.
+   * Equilibrium f_int(u) = s f under the loads at time 1, with the load factor s growing in steps
+   * to 1.
    *
-   * Each step is Newton's method with the operator K' of the present rotations. It is positive definite, so each
-   * correction goes downhill in the energy W(u) - s f.u of polar rotations, and a line search makes sure that
-   * it does not go too far. Linear elasticity needs one correction, and one operator for all steps.
+   * Each step is Newton's method with the operator K' of the present rotations. It is positive
+   * definite, so each correction goes downhill in the energy W(u) - s f.u of polar rotations, and a
+   * line search makes sure that it does not go too far. Linear elasticity needs one correction, and
+   * one operator for all steps.
    */
   class StaticEquilibrium : public TimeIntegrator
   {
   public:
     StaticEquilibrium(const Model &model);
 
-    StepReport
-    advance(State &state, double load_factor, bool observed) override;
+    StepReport advance(State &state, double load_factor, bool observed) override;
 
-    std::string
-    name() const override;
+    std::string name() const override;
 
   private:
-    /** s f - f_int(u), with the rotations updated to u; the held entries are the reactions with a minus sign. */
-    void
-    update_residual(const Vector &displacement, double load_factor);
+    /** s f - f_int(u), with the rotations updated to u; the held entries are the reactions with a
+     * minus sign. */
+    void update_residual(const Vector &displacement, double load_factor);
 
     /** W(u) - s f.u [J], with the rotations of the last update. */
-    double
-    energy(const Vector &displacement, double load_factor) const;
+    double energy(const Vector &displacement, double load_factor) const;
 
     /** Adds as much of the correction as lowers the energy. */
-    void
-    add_correction(Vector &displacement, double load_factor);
+    void add_correction(Vector &displacement, double load_factor);
 
-    bool   prepared = false;
+    bool prepared           = false;
     double last_load_factor = 0.;
     Vector residual, correction, free_residual;
   };

@@ -10,21 +10,20 @@ namespace Supple
   /** What summary.json tells of a run. */
   struct Summary
   {
-    std::string  status; ///< done, interrupted or failed: why
-    std::string  integrator;
-    unsigned int steps          = 0;
-    double       setup_seconds  = 0.;
-    double       run_seconds    = 0.;
-    double       error_estimate = 0.; ///< [m]
-    double       largest_motion = 0.; ///< [m]
-    unsigned int frames         = 0;
-    bool         history        = false;
-    bool         probes         = false;
-    bool         observed       = false; ///< whether energies were measured
-    Measurement  last;
+    std::string status; ///< done, interrupted or failed: why
+    std::string integrator;
+    unsigned int steps    = 0;
+    double setup_seconds  = 0.;
+    double run_seconds    = 0.;
+    double error_estimate = 0.; ///< [m]
+    double largest_motion = 0.; ///< [m]
+    unsigned int frames   = 0;
+    bool history          = false;
+    bool probes           = false;
+    bool observed         = false; ///< whether energies were measured
+    Measurement last;
 
-    std::string
-    to_json(const Model &model) const;
+    std::string to_json(const Model &model) const;
   };
 } // namespace Supple
 

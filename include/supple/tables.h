@@ -15,18 +15,17 @@ namespace Supple
     CsvFile(const std::string &file, const std::vector<std::string> &column_names);
 
     /** @throws WriteError if the disk is full */
-    void
-    write_row(const std::vector<double> &values);
+    void write_row(const std::vector<double> &values);
 
   private:
     const std::string file;
-    std::ofstream     stream;
+    std::ofstream stream;
   };
 
 
-  /** Writes a text file aside and renames it, so that it is there as a whole or not at all. @throws WriteError */
-  void
-  write_whole_file(const std::string &file, const std::string &content);
+  /** Writes a text file aside and renames it, so that it is there as a whole or not at all. @throws
+   * WriteError */
+  void write_whole_file(const std::string &file, const std::string &content);
 } // namespace Supple
 
 #endif

@@ -13,24 +13,24 @@ namespace Supple
   /** One linear tetrahedron as Tetrahedra wants to know it. */
   struct Tetrahedron
   {
-    std::array<unsigned int, 4> nodes;   ///< local node numbers, positively oriented
-    double                      lambda;  ///< [Pa]
-    double                      mu;      ///< [Pa]
-    double                      density; ///< [kg/m^3]
-    bool                        owned;   ///< counted in sums: true on exactly one process
+    std::array<unsigned int, 4> nodes; ///< local node numbers, positively oriented
+    double lambda;                     ///< [Pa]
+    double mu;                         ///< [Pa]
+    double density;                    ///< [kg/m^3]
+    bool owned;                        ///< counted in sums: true on exactly one process
   };
 
 
   /** Sums and extremes over the owned cells of one process. */
   struct CellSums
   {
-    double                kinetic = 0.;         ///< [J]
-    double                elastic = 0.;         ///< [J]
+    double kinetic = 0.;                        ///< [J]
+    double elastic = 0.;                        ///< [J]
     std::array<double, 3> linear_momentum{{}};  ///< [kg m/s]
     std::array<double, 3> angular_momentum{{}}; ///< [kg m^2/s], about the origin
-    double                min_volume_ratio = 1e300;
-    double                max_volume_ratio = -1e300;
-    unsigned int          inverted         = 0; ///< cells with a volume ratio of zero or less
+    double min_volume_ratio = 1e300;
+    double max_volume_ratio = -1e300;
+    unsigned int inverted   = 0; ///< cells with a volume ratio of zero or less
   };
 
 
@@ -44,9 +44,9 @@ namespace Supple
 
 
   /**
-   * All linear tetrahedra of one process: gradients of the shape functions, volumes, materials, rotations and
-   * places in the matrix, in flat arrays computed once. n_lanes cells make a batch and are computed side by
-   * side.
+   * All linear tetrahedra of one process: gradients of the shape functions, volumes, materials,
+   * rotations and places in the matrix, in flat arrays computed once. n_lanes cells make a batch
+   * and are computed side by side.
    *
    *           3
    *          /|\         F = I + sum_a u_a g_a^T          deformation gradient
@@ -58,110 +58,94 @@ namespace Supple
    *          \|/         K_ab = V (lambda h_a h_b^T + mu h_b h_a^T + mu (h_a.h_b) I),   h_a = R g_a
    *           1
    *
-   * (Mueller & Gross 2004; Hauth & Strasser 2004.) Displacements, velocities and forces are arrays of 3 n_local
-   * doubles, node by node; ghost values must be valid in what is read, and those of what is written
-   * are meaningless.
+   * (Mueller & Gross 2004; Hauth & Strasser 2004.) Displacements, velocities and forces are arrays
+   * of 3 n_local doubles, node by node; ghost values must be valid in what is read, and those of
+   * what is written are meaningless.
    */
   class Tetrahedra
   {
   public:
     /** @p positions: rest positions [m] of the local nodes. */
     Tetrahedra(const std::vector<std::array<double, 3>> &positions,
-               const std::vector<Tetrahedron>           &cells,
-               bool                                      lumped_mass);
+               const std::vector<Tetrahedron> &cells,
+               bool lumped_mass);
 
     /** Finds the place of each cell's blocks in matrices with this pattern. */
-    void
-    connect(const SymmetricPattern &pattern);
+    void connect(const SymmetricPattern &pattern);
 
-    /** R of every cell from the displacement; kept until called again. Before the first call R = I. */
-    void
-    update_rotations(RotationMethod method, const double *displacement);
+    /** R of every cell from the displacement; kept until called again. Before the first call R = I.
+     */
+    void update_rotations(RotationMethod method, const double *displacement);
 
     /** f += sum R K (R^T x - X), with the rotations that are kept. */
-    void
-    add_internal_force(const double *displacement, double *force) const;
+    void add_internal_force(const double *displacement, double *force) const;
 
     /** y += K' w, with K' = sum R K R^T. */
-    void
-    add_stiffness_product(const double *w, double *y) const;
+    void add_stiffness_product(const double *w, double *y) const;
 
     /** y += M w on all nodes, those held included. */
-    void
-    add_mass_product(const double *w, double *y) const;
+    void add_mass_product(const double *w, double *y) const;
 
     /** A += mass_factor M + stiffness_factor K'. */
-    void
-    add_tangent(double mass_factor, double stiffness_factor, SymmetricBlockMatrix &A) const;
+    void add_tangent(double mass_factor, double stiffness_factor, SymmetricBlockMatrix &A) const;
 
     /** M += the mass matrix. */
-    void
-    add_mass(SymmetricScalarMatrix &M) const;
+    void add_mass(SymmetricScalarMatrix &M) const;
 
     /** Mass [kg] of each local node, volume shared evenly: the row sums of the mass matrix. */
-    void
-    add_nodal_mass(double *mass) const;
+    void add_nodal_mass(double *mass) const;
 
-    /** f += integrals of shape functions times a linear force per volume [N/m^3], given at the nodes. */
-    void
-    add_load(const double *force_density, double *force) const;
+    /** f += integrals of shape functions times a linear force per volume [N/m^3], given at the
+     * nodes. */
+    void add_load(const double *force_density, double *force) const;
 
     /** @p velocity may be null: then nothing moves. */
-    CellSums
-    sums(const double *displacement, const double *velocity) const;
+    CellSums sums(const double *displacement, const double *velocity) const;
 
     /** For each cell in the order given to the constructor, owned or not. */
-    std::vector<CellState>
-    states(const double *displacement) const;
+    std::vector<CellState> states(const double *displacement) const;
 
   private:
     struct Batch
     {
-      std::array<std::array<Pack, 3>, 4>                   gradients; ///< g_a [1/m]
-      Pack                                                 volume;    ///< [m^3]
-      Pack                                                 lambda, mu, density;
-      Pack                                                 owned; ///< 1 or 0
-      std::array<std::array<std::uint32_t, n_lanes>, 4>    nodes; ///< ascending in each lane
+      std::array<std::array<Pack, 3>, 4> gradients; ///< g_a [1/m]
+      Pack volume;                                  ///< [m^3]
+      Pack lambda, mu, density;
+      Pack owned;                                              ///< 1 or 0
+      std::array<std::array<std::uint32_t, n_lanes>, 4> nodes; ///< ascending in each lane
     };
 
     struct Slots
     {
-      std::array<std::array<std::uint32_t, n_lanes>, 6> lower; ///< (1,0), (2,0), (2,1), (3,0), (3,1), (3,2)
+      std::array<std::array<std::uint32_t, n_lanes>, 6>
+        lower; ///< (1,0), (2,0), (2,1), (3,0), (3,1), (3,2)
       std::array<std::array<std::uint32_t, n_lanes>, 4> diagonal;
     };
 
     using NodalPack = std::array<std::array<Pack, 3>, 4>;
 
-    static NodalPack
-    gather(const Batch &batch, const double *nodal);
+    static NodalPack gather(const Batch &batch, const double *nodal);
 
-    static void
-    scatter(const Batch &batch, const NodalPack &values, double *nodal);
+    static void scatter(const Batch &batch, const NodalPack &values, double *nodal);
 
-    static Matrix3<Pack>
-    gradient(const Batch &batch, const NodalPack &values);
+    static Matrix3<Pack> gradient(const Batch &batch, const NodalPack &values);
 
-    static Matrix3<Pack>
-    strain(const Matrix3<Pack> &R, const Matrix3<Pack> &F);
+    static Matrix3<Pack> strain(const Matrix3<Pack> &R, const Matrix3<Pack> &F);
 
-    static Matrix3<Pack>
-    stress(const Batch &batch, const Matrix3<Pack> &strain);
+    static Matrix3<Pack> stress(const Batch &batch, const Matrix3<Pack> &strain);
 
-    Matrix3<Pack>
-    deformation_gradient(const Batch &batch, const double *displacement) const;
+    Matrix3<Pack> deformation_gradient(const Batch &batch, const double *displacement) const;
 
-    void
-    add_stress_divergence(std::size_t batch, const Matrix3<Pack> &strain, double *force) const;
+    void add_stress_divergence(std::size_t batch, const Matrix3<Pack> &strain, double *force) const;
 
     /** Entries (a, a) and (a, b) of a cell's mass matrix. */
-    std::pair<Pack, Pack>
-    mass_entries(const Batch &batch) const;
+    std::pair<Pack, Pack> mass_entries(const Batch &batch) const;
 
-    const std::size_t          n_cells;
-    const bool                 lumped_mass;
-    std::vector<Batch>         batches;
+    const std::size_t n_cells;
+    const bool lumped_mass;
+    std::vector<Batch> batches;
     std::vector<Matrix3<Pack>> rotations;
-    std::vector<Slots>         slots;
+    std::vector<Slots> slots;
     std::vector<std::array<double, 3>> positions;
   };
 } // namespace Supple

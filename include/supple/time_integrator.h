@@ -13,15 +13,15 @@ namespace Supple
   /** What a step has to tell. */
   struct StepReport
   {
-    double       dt                = 0.; ///< [s]
+    double dt                      = 0.; ///< [s]
     unsigned int newton_iterations = 0;
     unsigned int linear_iterations = 0;
-    double       local_error       = 0.; ///< estimate, largest over all vertices [m]
-    double       load_work         = 0.; ///< by the body force [J]
+    double local_error             = 0.; ///< estimate, largest over all vertices [m]
+    double load_work               = 0.; ///< by the body force [J]
 
     /**
-     * Energy the step took out of the motion or put into the springs [J]: what the elastic energy did not get of it
-     * is dissipated.
+     * Energy the step took out of the motion or put into the springs [J]: what the elastic energy
+     * did not get of it is dissipated.
      */
     double expended = 0.;
   };
@@ -30,13 +30,13 @@ namespace Supple
   /** What integrators work with. */
   struct Model
   {
-    const Body        &body;
+    const Body &body;
     const Constraints &constraints;
-    const Loads       &loads;
-    ImplicitOperator  &implicit_operator;
-    LinearSolver      &solver;
-    const Parameters  &parameters;
-    Effort            &effort;
+    const Loads &loads;
+    ImplicitOperator &implicit_operator;
+    LinearSolver &solver;
+    const Parameters &parameters;
+    Effort &effort;
   };
 
 
@@ -47,25 +47,23 @@ namespace Supple
     virtual ~TimeIntegrator() = default;
 
     /** Backward Euler, or the steps of a static problem. */
-    static std::unique_ptr<TimeIntegrator>
-    create(const Model &model, const Vector &displacement);
+    static std::unique_ptr<TimeIntegrator> create(const Model &model, const Vector &displacement);
 
     /**
      * One step.
-     * @param state    displacement and, if the problem is dynamic, velocity; as before if the step fails
+     * @param state    displacement and, if the problem is dynamic, velocity; as before if the step
+     * fails
      * @param time     at the end of the step [s]; the load factor of a static problem
      * @param observed whether anybody asks for energies and reactions
      * @throws ComputationError
      */
-    virtual StepReport
-    advance(State &state, double time, bool observed) = 0;
+    virtual StepReport advance(State &state, double time, bool observed) = 0;
 
-    virtual std::string
-    name() const = 0;
+    virtual std::string name() const = 0;
 
-    /** Forces of the clamps on the body at the end of an observed step [N]; zero where it is free. */
-    const Vector &
-    reactions() const
+    /** Forces of the clamps on the body at the end of an observed step [N]; zero where it is free.
+     */
+    const Vector &reactions() const
     {
       return reaction;
     }
@@ -74,8 +72,7 @@ namespace Supple
     TimeIntegrator(const Model &model);
 
     /** Keeps the held entries of a force and sets all others to zero. */
-    void
-    set_reactions(const Vector &force);
+    void set_reactions(const Vector &force);
 
     const Model model;
 

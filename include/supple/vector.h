@@ -6,14 +6,16 @@
 
 namespace Supple
 {
-  /** Three numbers per node; owned nodes first, then ghosts, which are valid only when asked for. */
+  /** Three numbers per node; owned nodes first, then ghosts, which are valid only when asked for.
+   */
   using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
 
   /** Displacement (block 0) and velocity (block 1). */
   using State = dealii::LinearAlgebra::distributed::BlockVector<double>;
 
 
-  /** While it lives, the ghost values of a vector are valid. On a single process it does nothing. */
+  /** While it lives, the ghost values of a vector are valid. On a single process it does nothing.
+   */
   class GhostValues
   {
   public:
@@ -30,12 +32,10 @@ namespace Supple
         vector.zero_out_ghost_values();
     }
 
-    GhostValues(const GhostValues &) = delete;
-    GhostValues &
-    operator=(const GhostValues &) = delete;
+    GhostValues(const GhostValues &)            = delete;
+    GhostValues &operator=(const GhostValues &) = delete;
 
-    const double *
-    data() const
+    const double *data() const
     {
       return vector.begin();
     }
@@ -45,10 +45,10 @@ namespace Supple
   };
 
 
-  /** Calls @p add(double *) on a vector set to zero, whose ghost part may be written but means nothing. */
+  /** Calls @p add(double *) on a vector set to zero, whose ghost part may be written but means
+   * nothing. */
   template <class Add>
-  void
-  sum_into(Vector &vector, const Add &add)
+  void sum_into(Vector &vector, const Add &add)
   {
     vector = 0.;
     add(vector.begin());
