@@ -52,7 +52,7 @@ namespace Supple
       if (model.body.rotation == RotationMethod::gram_schmidt)
         list.push_back(
           "Gram-Schmidt rotations have no elastic energy: 'elastic' is the energy of the same "
-          "formula, and the balance of energies need not hold. They depend on the axes.");
+          "formula, and 'dissipated' need not grow. They depend on the axes.");
       const double lambda = model.parameters.material.lame_lambda();
       const double mu     = model.parameters.material.lame_mu();
       const double nu     = lambda / (2. * (lambda + mu));

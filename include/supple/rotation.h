@@ -9,9 +9,8 @@ namespace Supple
    * How the rotation R of a cell is taken from its deformation gradient F.
    *
    * - none: R = I, linear elasticity.
-   * - gram_schmidt: the columns of F made orthonormal one after the other. Quick, but it depends on
-   * the order of the axes: the force is then neither the gradient of an energy nor frame
-   * indifferent.
+   * - gram_schmidt: the columns of F made orthonormal one after the other. Quick, but it depends on how the
+   *   body at rest lies to the axes, and the force is not the gradient of an energy: it has a net moment.
    * - polar: the rotation nearest to F, that is the one which maximizes trace(R^T F). For det F > 0
    * it is the rotation of the polar decomposition F = R U.
    */

@@ -1,0 +1,94 @@
+"""What a user can get wrong: exit status 1, one message with place and remedy, nothing written."""
+
+import pathlib
+import tempfile
+
+import runner
+
+folder = pathlib.Path(tempfile.mkdtemp(prefix="supple-"))
+scene = runner.BAR.read_text()
+
+
+def refused(arguments, *words, ranks=1):
+    """supple must refuse these arguments with a message that has these words."""
+    status, output, error = runner.run(*arguments, "--output", folder / "results", ranks=ranks)
+    where = f"{arguments[1:]}: exit status {status}\n{error}"
+    runner.check(status == 1, where)
+    for word in words:
+        runner.check(word in error, f"'{word}' is missing in {where}")
+    runner.check(error.startswith("supple: ") or ranks > 1, where)
+    runner.check(len(error) < 1500 and "Stacktrace" not in error and "terminate" not in error, where)
+    runner.check(output == "" and not (folder / "results").exists(), "something was written for " + where)
+
+
+def with_setting(entry, value, *words):
+    refused([runner.BAR, "--set", f"{entry}={value}"], "--set", *words)
+
+
+def with_text(old, new, *words):
+    runner.check(old in scene, f"'{old}' is not in the scene")
+    path = folder / "scene.prm"
+    path.write_text(scene.replace(old, new, 1))
+    refused([path], *words)
+
+
+refused(["no-such.prm"], "no-such.prm", "no such parameter file")
+runner.check(not pathlib.Path("no-such.prm").exists(), "the missing file was created")
+refused([folder], "no such parameter file")
+refused([runner.BAR, "--frobnicate"], "--frobnicate", "no such option")
+refused([runner.BAR, runner.BAR], "one scene at a time")
+status, _, error = runner.run(runner.BAR, "--set")
+runner.check(status == 1 and "must follow" in error, error)
+
+line = next(i for i, text in enumerate(scene.splitlines(), 1) if "Young modulus" in text)
+with_text("Young modulus", "Yung modulus", f"scene.prm:{line}:", "Yung modulus")
+with_text("= 100e6", "= -100e6", f"scene.prm:{line}:", "-100e6", "Young modulus", "greater than 0")
+with_text("subsection Material", "subsection Materials", "scene.prm:", "Materials")
+with_text("set Poisson", "Poisson", "scene.prm:", "could not be parsed")
+with_text("= polar\nend", "= polar", "scene.prm", "subsection")
+
+with_setting("Material/Yung modulus", 3, "Yung modulus", "--print-parameters")
+with_setting("Materials/Density", 3, "Materials")
+refused([runner.BAR, "--set", "nonsense"], "Section/Entry=value")
+for entry, values, words in [
+        ("Material/Young modulus", [0, -1, "inf", "soft"], ["greater than 0"]),
+        ("Material/Poisson ratio", [0.5, 0.7, -1, -2], ["greater than -1 and less than 0.5"]),
+        ("Material/Density", [0, -1], ["greater than 0"]),
+        ("Time/Step", [0, -0.1, "nan"], ["greater than 0"]),
+        ("Time/Steps", [0, -3, 1.5], ["whole number, 1 or greater"]),
+        ("Mesh/Box size", ["4, 12, 0", "4, 12"], ["three values", "greater than 0"]),
+        ("Mesh/Box cubes", ["2, 8, 0", "2, 8, 2, 2"], ["three values", "1 or greater"]),
+        ("Corotation/Rotation", ["quaternion"], ["none, gram-schmidt, polar"]),
+        ("Loads/Gravity", ["0, 0, nan"], ["three values"]),
+        ("Loads/Body force", ["x +; 0; 0"], ["expression"]),
+        ("Loads/Body force", ["x; 0"], ["found 2", "3"]),
+        ("Loads/Body force", ["w; 0; 0"], ["w", "x, y, z, t"]),
+        ("Start/Velocity", ["1/0; 0; 0", "sqrt(-1); 0; 0"], ["finite"]),
+        ("Constraints/Clamped boundaries", ["7"], ["no boundary 7", "3 (8 faces)"]),
+        ("Constraints/Clamped boundaries", ["top"], ["boundary ids"]),
+        ("Constraints/Clamped region", ["x > 100"], ["no vertex", "[0, 4] x [0, 12] x [0, 4]", "0, 1, 2, 3, 4, 5"]),
+        ("Constraints/Clamped region", ["x >"], ["expression"]),
+        ("Constraints/Boundaries held along y", ["9"], ["no boundary 9"]),
+        ("Probes/Points", ["tip 0, 0, 0", "tip: 0, 0", "a: 0, 0, 0; a: 1, 1, 1"], ["Probes/Points"]),
+        ("Probes/Boundaries", ["wall: x", "wall: 8"], ["Probes/Boundaries"]),
+        ("Probes/Regions", ["end: y > 13"], ["no vertex"])]:
+    for value in values:
+        with_setting(entry, value, *words)
+
+refused([runner.BAR, "--set", "Material/Elastic constants=Lame", "--set", "Material/Lame lambda=-7e5", "--set",
+         "Material/Lame mu=1e6"], "3 lambda + 2 mu")
+refused([runner.BAR, "--set", "Time/Problem=static", "--set", "Damping/Viscous=1"], "static", "damping")
+
+static = [runner.BAR, "--set", "Time/Problem=static", "--set", "Constraints/Clamped boundaries="]
+refused(static, "6 of its six rigid motions are free", "Hold a boundary")
+refused([*static, "--set", "Constraints/Boundaries held along y=3"], "3 of its six rigid motions are free")
+refused([*static, "--set", "Constraints/Clamped region=x == 0 && y == 0 && z == 0"], "3 of its six rigid")
+
+# An output folder that can't be: beneath a regular file, so that it holds for root too.
+(folder / "file").write_text("")
+status, output, error = runner.run(runner.BAR, "--output", folder / "file" / "results")
+runner.check(status == 1 and "can't be written" in error and "--output" in error and output == "", error)
+
+# On two processes the message comes once.
+status, _, error = runner.run(runner.BAR, "--set", "Constraints/Clamped region=x > 100", ranks=2)
+runner.check(status == 1 and error.count("this region has no vertex") == 1, error)

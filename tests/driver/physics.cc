@@ -1,0 +1,92 @@
+/**
+ * Runs the scene of a test and prints what is physical in it: a few rows of history.csv and
+ * probes.csv, each column divided by its largest value, so that numbers of order one with ten
+ * digits can be compared.
+ */
+
+#include <supple/error.h>
+#include <supple/simulation.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <set>
+
+namespace
+{
+  struct Table
+  {
+    std::vector<std::string> names;
+    std::vector<std::vector<double>> rows;
+  };
+
+
+  Table read_csv(const std::string &file)
+  {
+    Table table;
+    std::ifstream stream(file);
+    std::string line;
+    std::getline(stream, line);
+    table.names = dealii::Utilities::split_string_list(line, ',');
+    while (std::getline(stream, line))
+      table.rows.push_back(
+        dealii::Utilities::string_to_double(dealii::Utilities::split_string_list(line, ',')));
+    return table;
+  }
+
+
+  void print(const std::string &title, const Table &table)
+  {
+    const std::set<std::string> not_physical = {"step",
+                                                "newton_iterations",
+                                                "linear_iterations",
+                                                "seconds"};
+    std::cout << title << ": " << table.rows.size() << " rows\n";
+    std::set<std::size_t> chosen = {0, 1, 2, 5, 10, 20, 50, table.rows.size() - 1};
+    for (std::size_t c = 0; c < table.names.size(); ++c)
+      {
+        if (not_physical.count(table.names[c]) > 0)
+          continue;
+        double largest = 0.;
+        for (const auto &row : table.rows)
+          largest = std::max(largest, std::abs(row[c]));
+        std::printf("%s, largest %.9e:", table.names[c].c_str(), largest);
+        for (const std::size_t r : chosen)
+          if (r < table.rows.size())
+            std::printf(" %.10f", largest > 0. ? table.rows[r][c] / largest : 0.);
+        std::printf("\n");
+        std::fflush(stdout);
+      }
+  }
+} // namespace
+
+
+int
+main(int argc, char **argv)
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  try
+    {
+      const auto parameters = Supple::Parameters::read(argv[1]);
+      Supple::Simulation simulation(parameters, "results", true, MPI_COMM_WORLD);
+      simulation.run();
+    }
+  catch (const std::exception &exception)
+    {
+      if (root)
+        std::cout << exception.what() << std::endl;
+      return 1;
+    }
+  if (root)
+    {
+      print("history", read_csv("results/history.csv"));
+      if (std::ifstream("results/probes.csv"))
+        print("probes", read_csv("results/probes.csv"));
+    }
+  return 0;
+}

@@ -1,0 +1,29 @@
+"""One and two processes give the same motion to 1e-8."""
+
+import runner
+
+PHYSICAL = ["time", "dt", "kinetic", "elastic", "potential", "dissipated", "total", "work", "px", "py", "pz", "lx",
+            "ly", "lz", "min_volume_ratio", "max_volume_ratio", "inverted"]
+settings = {"Solver/Tolerance": 1e-12, "Loads/Body force": "1e4*sin(10*t); 0; 0", "Damping/Mass factor": 0.1,
+            "Damping/Stiffness factor": 1e-3, "Damping/Viscous": 100, "Constraints/Boundaries held along x": 4,
+            "Probes/Regions": "tip: y < 0.1", "Time/Steps": 40}
+
+for rotation in ["none", "gram-schmidt", "polar"]:
+    settings["Corotation/Rotation"] = rotation
+    one = runner.simulate(runner.BAR, settings)
+    two = runner.simulate(runner.BAR, settings, ranks=2)
+    history = runner.largest_difference(one.history(), two.history(), PHYSICAL)
+    columns = [name for name in one.probes()[0] if name != "step"]
+    probes = runner.largest_difference(one.probes(), two.probes(), columns)
+    runner.check(history <= 1e-8, f"history.csv differs by {history}")
+    runner.check(probes <= 1e-8, f"probes.csv differs by {probes}")
+    runner.check(two.summary()["built"]["parallel"] and not one.summary()["built"]["parallel"], "parallel")
+    runner.check(one.frame_times() == two.frame_times(), "the frames are at other times")
+    print(f"{rotation}: history within {history:.1e}, probes within {probes:.1e}")
+
+static = {"Time/Problem": "static", "Time/Steps": 2, "Solver/Tolerance": 1e-12, "Time/Newton tolerance": 1e-10}
+one = runner.simulate(runner.BAR, static)
+two = runner.simulate(runner.BAR, static, ranks=2)
+probes = runner.largest_difference(one.probes(), two.probes(), ["n28.ux", "n28.uy", "n28.uz", "clamp.fz"])
+runner.check(probes <= 1e-8, f"the static solutions differ by {probes}")
+print(f"static: probes within {probes:.1e}")
