@@ -17,7 +17,8 @@ namespace Supple
     {
       const ImplicitOperator &A;
 
-      void vmult(Vector &y, const Vector &x) const
+      void
+      vmult(Vector &y, const Vector &x) const
       {
         A.mass_vmult(y, x);
       }
@@ -28,7 +29,8 @@ namespace Supple
     {
       const std::vector<double> &inverse;
 
-      void vmult(Vector &y, const Vector &x) const
+      void
+      vmult(Vector &y, const Vector &x) const
       {
         for (std::size_t node = 0; node < inverse.size(); ++node)
           for (unsigned int i = 0; i < 3; ++i)
@@ -38,7 +40,8 @@ namespace Supple
   } // namespace
 
 
-  BackwardEuler::ARKode::AdditionalData BackwardEuler::settings(const Parameters &parameters)
+  BackwardEuler::ARKode::AdditionalData
+  BackwardEuler::settings(const Parameters &parameters)
   {
     const bool linear = parameters.corotation.rotation == RotationMethod::none;
 
@@ -72,14 +75,16 @@ namespace Supple
   }
 
 
-  std::string BackwardEuler::name() const
+  std::string
+  BackwardEuler::name() const
   {
     return "backward Euler (ARKode)";
   }
 
 
   template <class Action>
-  int BackwardEuler::guarded(const Action &action)
+  int
+  BackwardEuler::guarded(const Action &action)
   {
     if (failure)
       return -1;
@@ -96,7 +101,8 @@ namespace Supple
   }
 
 
-  void BackwardEuler::throw_what_failed()
+  void
+  BackwardEuler::throw_what_failed()
   {
     if (failure)
       std::rethrow_exception(failure);
@@ -105,7 +111,8 @@ namespace Supple
   }
 
 
-  void BackwardEuler::set_callbacks()
+  void
+  BackwardEuler::set_callbacks()
   {
     ode.implicit_function = [this](const double time, const State &y, State &f) {
       return guarded([&] {
@@ -176,7 +183,8 @@ namespace Supple
   }
 
 
-  void BackwardEuler::set_options(void *arkode_memory)
+  void
+  BackwardEuler::set_options(void *arkode_memory)
   {
     Compatibility::Real one        = 1.;
     const ARKodeButcherTable table = ARKodeButcherTable_Create(1, 1, 0, &one, &one, &one, nullptr);
@@ -198,7 +206,8 @@ namespace Supple
   }
 
 
-  void BackwardEuler::net_force(const double time, const State &y, Vector &net)
+  void
+  BackwardEuler::net_force(const double time, const State &y, Vector &net)
   {
     const DampingParameters &damping = model.parameters.damping;
 
@@ -224,7 +233,8 @@ namespace Supple
   }
 
 
-  void BackwardEuler::solve_eliminated(const State &r, State &z)
+  void
+  BackwardEuler::solve_eliminated(const State &r, State &z)
   {
     model.implicit_operator.stiffness_vmult(scratch, r.block(0));
     scratch.sadd(-gamma, 1., r.block(1));
@@ -237,7 +247,8 @@ namespace Supple
   }
 
 
-  void BackwardEuler::solve_mass(Vector &x, const Vector &b)
+  void
+  BackwardEuler::solve_mass(Vector &x, const Vector &b)
   {
     const PhaseTimer timer(model.effort, Phase::solve);
 
@@ -248,7 +259,8 @@ namespace Supple
   }
 
 
-  StepReport BackwardEuler::advance(State &state, const double time, const bool observed)
+  StepReport
+  BackwardEuler::advance(State &state, const double time, const bool observed)
   {
     StepReport report;
     report.dt         = model.parameters.time.step;
@@ -296,7 +308,8 @@ namespace Supple
    * step, d(kinetic) + 1/2 dv.M dv + dt v1.D v1 + f_int(u1).du = f1.du, and all but the first term
    * on the left is what the step expended.
    */
-  void BackwardEuler::observe(const State &state, const double time, StepReport &report)
+  void
+  BackwardEuler::observe(const State &state, const double time, StepReport &report)
   {
     const PhaseTimer timer(model.effort, Phase::diagnostics);
     const DampingParameters &damping = model.parameters.damping;

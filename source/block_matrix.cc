@@ -4,7 +4,8 @@
 
 namespace Supple
 {
-  std::size_t SymmetricPattern::position(const unsigned int row, const unsigned int wanted) const
+  std::size_t
+  SymmetricPattern::position(const unsigned int row, const unsigned int wanted) const
   {
     const auto begin = column.begin() + row_start[row];
     const auto end   = column.begin() + row_start[row + 1];
@@ -21,14 +22,16 @@ namespace Supple
   }
 
 
-  void SymmetricBlockMatrix::set_zero()
+  void
+  SymmetricBlockMatrix::set_zero()
   {
     std::fill(lower.begin(), lower.end(), 0.);
     std::fill(diagonal.begin(), diagonal.end(), 0.);
   }
 
 
-  void SymmetricBlockMatrix::vmult(double *y, const double *x) const
+  void
+  SymmetricBlockMatrix::vmult(double *y, const double *x) const
   {
     // Row i comes after all rows it adds to, so that y[i] can be set and added to in one sweep.
     for (unsigned int i = 0; i < pattern.n_local; ++i)
@@ -75,7 +78,8 @@ namespace Supple
   }
 
 
-  void SymmetricScalarMatrix::vmult(double *y, const double *x) const
+  void
+  SymmetricScalarMatrix::vmult(double *y, const double *x) const
   {
     for (unsigned int i = 0; i < pattern.n_local; ++i)
       {

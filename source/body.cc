@@ -25,7 +25,8 @@ namespace Supple
   }
 
 
-  void Body::number_nodes()
+  void
+  Body::number_nodes()
   {
     partitioner =
       std::make_shared<Utilities::MPI::Partitioner>(dof_handler.locally_owned_dofs(),
@@ -37,7 +38,8 @@ namespace Supple
   }
 
 
-  void Body::collect_cells(const MaterialParameters &material)
+  void
+  Body::collect_cells(const MaterialParameters &material)
   {
     positions.resize(n_local);
     serial_vertex.resize(n_local);
@@ -81,13 +83,15 @@ namespace Supple
   }
 
 
-  void Body::initialize(Vector &vector) const
+  void
+  Body::initialize(Vector &vector) const
   {
     vector.reinit(partitioner);
   }
 
 
-  void Body::update_rotations(const Vector &displacement, Effort &effort) const
+  void
+  Body::update_rotations(const Vector &displacement, Effort &effort) const
   {
     if (rotation == RotationMethod::none)
       return;
@@ -98,7 +102,8 @@ namespace Supple
   }
 
 
-  void Body::internal_force(Vector &force, const Vector &displacement, Effort &effort) const
+  void
+  Body::internal_force(Vector &force, const Vector &displacement, Effort &effort) const
   {
     const PhaseTimer timer(effort, Phase::forces);
     const GhostValues values(displacement);
@@ -106,14 +111,15 @@ namespace Supple
   }
 
 
-  Point<3> Body::position(const unsigned int node) const
+  Point<3>
+  Body::position(const unsigned int node) const
   {
     return {positions[node][0], positions[node][1], positions[node][2]};
   }
 
 
-  std::vector<bool> Body::boundary_nodes(const unsigned int boundary_id,
-                                         const std::string &origin) const
+  std::vector<bool>
+  Body::boundary_nodes(const unsigned int boundary_id, const std::string &origin) const
   {
     if (mesh.boundaries.find(boundary_id) == mesh.boundaries.end())
       {
@@ -148,8 +154,8 @@ namespace Supple
   }
 
 
-  std::vector<bool> Body::region_nodes(const std::string &expression,
-                                       const std::string &origin) const
+  std::vector<bool>
+  Body::region_nodes(const std::string &expression, const std::string &origin) const
   {
     const Expression inside(expression, 1, origin);
     std::vector<bool> nodes(n_local);

@@ -4,7 +4,8 @@
 
 namespace Supple
 {
-  std::string CommandLine::help()
+  std::string
+  CommandLine::help()
   {
     return "Supple moves soft elastic bodies: a parameter file goes in, VTU files and histories "
            "come out.\n"
@@ -26,7 +27,8 @@ namespace Supple
   }
 
 
-  CommandLine CommandLine::parse(const int argc, char **argv)
+  CommandLine
+  CommandLine::parse(const int argc, char **argv)
   {
     const std::vector<std::string> words(argv + 1, argv + argc);
     CommandLine line;

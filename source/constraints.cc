@@ -44,7 +44,8 @@ namespace Supple
    * Rank of the map from rigid motions to the displacements of held degrees of freedom, by the 6x6
    * matrix of its scalar products. Lengths are measured in diameters of the body.
    */
-  unsigned int Constraints::count_free_rigid_motions(const Body &body) const
+  unsigned int
+  Constraints::count_free_rigid_motions(const Body &body) const
   {
     const auto corners    = body.mesh.bounding_box.get_boundary_points();
     const Point<3> center = body.mesh.bounding_box.center();
@@ -72,7 +73,8 @@ namespace Supple
   }
 
 
-  void Constraints::set_zero(Vector &vector) const
+  void
+  Constraints::set_zero(Vector &vector) const
   {
     for (const unsigned int dof : held_owned)
       vector.local_element(dof) = 0.;

@@ -6,7 +6,8 @@ namespace Supple
 {
   using namespace dealii;
 
-  std::vector<std::string> Measurement::column_names()
+  std::vector<std::string>
+  Measurement::column_names()
   {
     return {"step",
             "time",
@@ -32,7 +33,8 @@ namespace Supple
   }
 
 
-  std::vector<double> Measurement::row() const
+  std::vector<double>
+  Measurement::row() const
   {
     const auto &p = linear_momentum, &l = angular_momentum;
     return {double(step),
@@ -67,11 +69,12 @@ namespace Supple
   }
 
 
-  Measurement Diagnostics::measure(const unsigned int step,
-                                   const double time,
-                                   const double seconds,
-                                   const State &state,
-                                   const StepReport &report)
+  Measurement
+  Diagnostics::measure(const unsigned int step,
+                       const double time,
+                       const double seconds,
+                       const State &state,
+                       const StepReport &report)
   {
     const bool moving = state.n_blocks() > 1;
     const GhostValues displacement(state.block(0));

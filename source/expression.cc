@@ -13,7 +13,8 @@ namespace Supple
   namespace
   {
     /** What is wrong, without deal.II's frame around it. */
-    std::string reason(const dealii::ExceptionBase &exception)
+    std::string
+    reason(const dealii::ExceptionBase &exception)
     {
       std::ostringstream text;
       exception.print_info(text);
@@ -81,17 +82,18 @@ namespace Supple
   }
 
 
-  double Expression::value(const dealii::Point<3> &point,
-                           const double time,
-                           const unsigned int component) const
+  double
+  Expression::value(const dealii::Point<3> &point,
+                    const double time,
+                    const unsigned int component) const
   {
     function->set_time(time);
     return function->value(point, component);
   }
 
 
-  dealii::Tensor<1, 3> Expression::vector_value(const dealii::Point<3> &point,
-                                                const double time) const
+  dealii::Tensor<1, 3>
+  Expression::vector_value(const dealii::Point<3> &point, const double time) const
   {
     dealii::Tensor<1, 3> result;
     for (unsigned int c = 0; c < 3; ++c)

@@ -26,7 +26,8 @@ namespace Supple
   }
 
 
-  bool Frames::has_moved(const Vector &displacement) const
+  bool
+  Frames::has_moved(const Vector &displacement) const
   {
     double farthest = 0.;
     for (unsigned int node = 0; node < body.n_owned; ++node)
@@ -43,7 +44,8 @@ namespace Supple
   }
 
 
-  bool Frames::volume_has_changed(const Measurement &now) const
+  bool
+  Frames::volume_has_changed(const Measurement &now) const
   {
     return now.max_volume_ratio > max_volume_ratio + parameters.volume_ratio_change ||
            now.min_volume_ratio < min_volume_ratio - parameters.volume_ratio_change ||
@@ -51,7 +53,8 @@ namespace Supple
   }
 
 
-  bool Frames::due(const State &state, const Measurement &now) const
+  bool
+  Frames::due(const State &state, const Measurement &now) const
   {
     if (records.empty())
       return true;
@@ -78,7 +81,8 @@ namespace Supple
   }
 
 
-  void Frames::write(const State &state, const Measurement &now)
+  void
+  Frames::write(const State &state, const Measurement &now)
   {
     if (!records.empty() && now.step == last.step)
       return;
@@ -105,7 +109,8 @@ namespace Supple
   }
 
 
-  void Frames::write_vtu(const State &state, const Measurement &now, const std::string &name)
+  void
+  Frames::write_vtu(const State &state, const Measurement &now, const std::string &name)
   {
     DataOut<3> data;
     data.attach_dof_handler(body.dof_handler);

@@ -26,7 +26,8 @@ namespace Supple
 
 
   /** A node that is held in all directions is coupled to no other. */
-  SymmetricPattern ImplicitOperator::make_pattern() const
+  SymmetricPattern
+  ImplicitOperator::make_pattern() const
   {
     std::vector<std::vector<std::uint32_t>> columns(body.n_local);
     for (const auto &nodes : body.cell_nodes)
@@ -51,7 +52,8 @@ namespace Supple
   }
 
 
-  void ImplicitOperator::find_masked_entries()
+  void
+  ImplicitOperator::find_masked_entries()
   {
     for (const unsigned int dof : constraints.owned())
       {
@@ -72,9 +74,10 @@ namespace Supple
   }
 
 
-  void ImplicitOperator::assemble(const double mass_factor,
-                                  const double stiffness_factor,
-                                  const double diagonal_term)
+  void
+  ImplicitOperator::assemble(const double mass_factor,
+                             const double stiffness_factor,
+                             const double diagonal_term)
   {
     const PhaseTimer timer(effort, Phase::assembly);
     ++effort.assemblies;
@@ -92,7 +95,8 @@ namespace Supple
   }
 
 
-  void ImplicitOperator::assemble(const double gamma)
+  void
+  ImplicitOperator::assemble(const double gamma)
   {
     assemble(1. + gamma * damping.mass_factor,
              gamma * gamma + gamma * damping.stiffness_factor,
@@ -100,20 +104,23 @@ namespace Supple
   }
 
 
-  void ImplicitOperator::assemble_stiffness()
+  void
+  ImplicitOperator::assemble_stiffness()
   {
     assemble(0., 1., 0.);
   }
 
 
-  void ImplicitOperator::vmult(Vector &y, const Vector &x) const
+  void
+  ImplicitOperator::vmult(Vector &y, const Vector &x) const
   {
     const GhostValues values(x);
     A.vmult(y.begin(), values.data());
   }
 
 
-  void ImplicitOperator::mass_vmult(Vector &y, const Vector &x) const
+  void
+  ImplicitOperator::mass_vmult(Vector &y, const Vector &x) const
   {
     const GhostValues values(x);
     M->vmult(y.begin(), values.data());
@@ -121,7 +128,8 @@ namespace Supple
   }
 
 
-  void ImplicitOperator::stiffness_vmult(Vector &y, const Vector &x) const
+  void
+  ImplicitOperator::stiffness_vmult(Vector &y, const Vector &x) const
   {
     const GhostValues values(x);
     sum_into(y, [&](double *sum) { body.tetrahedra->add_stiffness_product(values.data(), sum); });

@@ -10,7 +10,8 @@ namespace Supple
   {
     volatile std::sig_atomic_t signal_received = 0; // a signal handler can reach nothing else
 
-    void note_signal(const int signal)
+    void
+    note_signal(const int signal)
     {
       signal_received = signal;
     }
@@ -32,7 +33,8 @@ namespace Supple
   }
 
 
-  bool InterruptGuard::requested(const MPI_Comm communicator) const
+  bool
+  InterruptGuard::requested(const MPI_Comm communicator) const
   {
     const int here = signal_received;
     if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)

@@ -16,7 +16,8 @@ namespace Supple
     constexpr unsigned int largest_for_ldlt    = 1500;  // degrees of freedom
     constexpr unsigned int largest_for_cholmod = 25000; // degrees of freedom
 
-    Method choose(const ImplicitOperator &A, std::string &reason)
+    Method
+    choose(const ImplicitOperator &A, std::string &reason)
     {
       const unsigned int n_dofs = A.body.dof_handler.n_dofs();
       const unsigned int n_ranks =
@@ -58,9 +59,10 @@ namespace Supple
   }
 
 
-  std::unique_ptr<LinearSolver> LinearSolver::create(const ImplicitOperator &A,
-                                                     const SolverParameters &parameters,
-                                                     Effort &effort)
+  std::unique_ptr<LinearSolver>
+  LinearSolver::create(const ImplicitOperator &A,
+                       const SolverParameters &parameters,
+                       Effort &effort)
   {
     std::string reason = "asked for";
     Method method      = parameters.method;
@@ -92,14 +94,16 @@ namespace Supple
   }
 
 
-  void LinearSolver::prepare(const Vector &displacement)
+  void
+  LinearSolver::prepare(const Vector &displacement)
   {
     const PhaseTimer timer(effort, Phase::solver_setup);
     do_prepare(displacement);
   }
 
 
-  unsigned int LinearSolver::solve(Vector &x, const Vector &b)
+  unsigned int
+  LinearSolver::solve(Vector &x, const Vector &b)
   {
     const PhaseTimer timer(effort, Phase::solve);
 

@@ -33,7 +33,8 @@ namespace Supple
       Preconditioner preconditioner;
 
     private:
-      unsigned int do_solve(Vector &x, const Vector &b) override
+      unsigned int
+      do_solve(Vector &x, const Vector &b) override
       {
         SolverControl control(parameters.iteration_limit, parameters.tolerance * b.l2_norm());
         SolverCG<Vector> cg(control, memory);
@@ -59,7 +60,8 @@ namespace Supple
     class BlockJacobi
     {
     public:
-      void initialize(const SymmetricBlockMatrix &A)
+      void
+      initialize(const SymmetricBlockMatrix &A)
       {
         using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
         inverses.resize(9 * static_cast<std::size_t>(A.pattern.n_owned));
@@ -70,7 +72,8 @@ namespace Supple
           }
       }
 
-      void vmult(Vector &y, const Vector &x) const
+      void
+      vmult(Vector &y, const Vector &x) const
       {
         for (std::size_t i = 0; 9 * i < inverses.size(); ++i)
           for (unsigned int a = 0; a < 3; ++a)
@@ -92,13 +95,15 @@ namespace Supple
     public:
       using ConjugateGradients<BlockJacobi>::ConjugateGradients;
 
-      std::string name() const override
+      std::string
+      name() const override
       {
         return "cg-jacobi";
       }
 
     private:
-      void do_prepare(const Vector &) override
+      void
+      do_prepare(const Vector &) override
       {
         preconditioner.initialize(A.matrix());
       }
@@ -115,7 +120,8 @@ namespace Supple
         make_pattern();
       }
 
-      std::string name() const override
+      std::string
+      name() const override
       {
         return "cg-ml";
       }
@@ -129,7 +135,8 @@ namespace Supple
       };
 
       /** Whole rows, as Trilinos wants them, from the half that A keeps. */
-      void find_rows()
+      void
+      find_rows()
       {
         const SymmetricBlockMatrix &blocks = A.matrix();
         const SymmetricPattern &pattern    = blocks.pattern;
@@ -148,12 +155,14 @@ namespace Supple
           }
       }
 
-      types::global_dof_index global(const unsigned int dof) const
+      types::global_dof_index
+      global(const unsigned int dof) const
       {
         return A.body.partitioner->local_to_global(dof);
       }
 
-      void make_pattern()
+      void
+      make_pattern()
       {
         const IndexSet &owned = A.body.dof_handler.locally_owned_dofs();
         DynamicSparsityPattern sparsity(owned.size(), owned.size(), owned);
@@ -165,7 +174,8 @@ namespace Supple
         matrix.reinit(owned, owned, sparsity, A.body.mesh.communicator);
       }
 
-      void copy_values()
+      void
+      copy_values()
       {
         std::vector<types::global_dof_index> columns;
         std::vector<double> values;
@@ -186,7 +196,8 @@ namespace Supple
       }
 
       /** Three translations and three rotations of the deformed body, one after the other. */
-      void find_rigid_motions(const Vector &displacement)
+      void
+      find_rigid_motions(const Vector &displacement)
       {
         const unsigned int n  = 3 * A.body.n_owned;
         const Point<3> center = A.body.mesh.bounding_box.center();
@@ -207,7 +218,8 @@ namespace Supple
             }
       }
 
-      void do_prepare(const Vector &displacement) override
+      void
+      do_prepare(const Vector &displacement) override
       {
         copy_values();
         find_rigid_motions(displacement);
@@ -243,9 +255,10 @@ namespace Supple
   }
 
 
-  std::unique_ptr<LinearSolver> make_cg_jacobi_solver(const ImplicitOperator &A,
-                                                      const SolverParameters &parameters,
-                                                      Effort &effort)
+  std::unique_ptr<LinearSolver>
+  make_cg_jacobi_solver(const ImplicitOperator &A,
+                        const SolverParameters &parameters,
+                        Effort &effort)
   {
     return std::make_unique<JacobiSolver>(A, parameters, effort);
   }

@@ -10,12 +10,14 @@ namespace Supple
   {
     using SparseMatrix = Eigen::SparseMatrix<double>;
 
-    void adjust(Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper> &)
+    void
+    adjust(Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper> &)
     {
     }
 
     /** One ordering tried, the one that was best for meshes of tetrahedra. */
-    void adjust(Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> &factorization)
+    void
+    adjust(Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> &factorization)
     {
       factorization.cholmod().nmethods           = 1;
       factorization.cholmod().method[0].ordering = CHOLMOD_AMD;
@@ -44,13 +46,15 @@ namespace Supple
         factorization.analyzePattern(matrix);
       }
 
-      std::string name() const override
+      std::string
+      name() const override
       {
         return solver_name;
       }
 
     private:
-      void make_pattern()
+      void
+      make_pattern()
       {
         const SymmetricPattern &pattern = A.matrix().pattern;
         const std::size_t n             = 3 * static_cast<std::size_t>(pattern.n_owned);
@@ -73,7 +77,8 @@ namespace Supple
         copy_values();
       }
 
-      void copy_values()
+      void
+      copy_values()
       {
         const SymmetricBlockMatrix &blocks = A.matrix();
         const SymmetricPattern &pattern    = blocks.pattern;
@@ -90,7 +95,8 @@ namespace Supple
             }
       }
 
-      void do_prepare(const Vector &) override
+      void
+      do_prepare(const Vector &) override
       {
         copy_values();
         factorization.factorize(matrix);
@@ -99,7 +105,8 @@ namespace Supple
           throw ComputationError("the matrix is not positive definite (" + solver_name + ")");
       }
 
-      unsigned int do_solve(Vector &x, const Vector &b) override
+      unsigned int
+      do_solve(Vector &x, const Vector &b) override
       {
         Eigen::Map<Eigen::VectorXd>(x.begin(), x.size()) =
           factorization.solve(Eigen::Map<const Eigen::VectorXd>(b.begin(), b.size()));

@@ -24,7 +24,8 @@ namespace Supple
 
 
   /** Integrals of the force's linear interpolation times the shape functions. */
-  void Loads::evaluate(const double time) const
+  void
+  Loads::evaluate(const double time) const
   {
     if (evaluated && (!expression.depends_on_time() || time == evaluation_time))
       return;
@@ -41,7 +42,8 @@ namespace Supple
   }
 
 
-  const Vector &Loads::force(const double time) const
+  const Vector &
+  Loads::force(const double time) const
   {
     if (!has_body_force())
       return gravity;
@@ -50,14 +52,16 @@ namespace Supple
   }
 
 
-  const Vector &Loads::body_force(const double time) const
+  const Vector &
+  Loads::body_force(const double time) const
   {
     evaluate(time);
     return applied;
   }
 
 
-  double Loads::potential(const Vector &displacement) const
+  double
+  Loads::potential(const Vector &displacement) const
   {
     return -(gravity * displacement);
   }

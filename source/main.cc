@@ -15,7 +15,8 @@
 
 namespace
 {
-  void execute(const Supple::CommandLine &line, const bool root)
+  void
+  execute(const Supple::CommandLine &line, const bool root)
   {
     using Action = Supple::CommandLine::Action;
     switch (line.action)

@@ -12,7 +12,8 @@ namespace Supple
   namespace
   {
     /** det [x1-x0, x2-x0, x3-x0], six times the volume. */
-    double six_volumes(const SerialMesh &mesh, const std::array<unsigned int, 4> &cell)
+    double
+    six_volumes(const SerialMesh &mesh, const std::array<unsigned int, 4> &cell)
     {
       const Point<3> &origin = mesh.vertices[cell[0]];
       return cross_product_3d(mesh.vertices[cell[1]] - origin, mesh.vertices[cell[2]] - origin) *
@@ -20,7 +21,8 @@ namespace Supple
     }
 
 
-    void create_triangulation(const SerialMesh &mesh, Triangulation<3> &triangulation)
+    void
+    create_triangulation(const SerialMesh &mesh, Triangulation<3> &triangulation)
     {
       std::vector<CellData<3>> cells;
       cells.reserve(mesh.cells.size());
@@ -44,7 +46,8 @@ namespace Supple
   } // namespace
 
 
-  SerialMesh box_mesh(const MeshParameters &parameters)
+  SerialMesh
+  box_mesh(const MeshParameters &parameters)
   {
     SerialMesh mesh;
     const auto [nx, ny, nz] = parameters.cubes;
@@ -128,7 +131,8 @@ namespace Supple
   }
 
 
-  void Mesh::measure(const SerialMesh &mesh)
+  void
+  Mesh::measure(const SerialMesh &mesh)
   {
     n_cells      = mesh.cells.size();
     n_vertices   = mesh.vertices.size();
@@ -141,14 +145,16 @@ namespace Supple
   }
 
 
-  double Mesh::diameter() const
+  double
+  Mesh::diameter() const
   {
     const auto &corners = bounding_box.get_boundary_points();
     return corners.first.distance(corners.second);
   }
 
 
-  std::string Mesh::extent() const
+  std::string
+  Mesh::extent() const
   {
     const auto &corners = bounding_box.get_boundary_points();
     std::ostringstream text;

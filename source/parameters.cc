@@ -27,7 +27,8 @@ namespace Supple
       {
       }
 
-      bool match(const std::string &text) const override
+      bool
+      match(const std::string &text) const override
       {
         if (!Patterns::Double().match(text))
           return false;
@@ -35,7 +36,8 @@ namespace Supple
         return value > lower && value < upper && std::isfinite(value);
       }
 
-      std::string description(const OutputStyle = Machine) const override
+      std::string
+      description(const OutputStyle = Machine) const override
       {
         std::ostringstream text;
         text << "a number greater than " << lower;
@@ -44,7 +46,8 @@ namespace Supple
         return text.str();
       }
 
-      std::unique_ptr<Patterns::PatternBase> clone() const override
+      std::unique_ptr<Patterns::PatternBase>
+      clone() const override
       {
         return std::make_unique<Between>(*this);
       }
@@ -64,7 +67,8 @@ namespace Supple
       {
       }
 
-      bool match(const std::string &text) const override
+      bool
+      match(const std::string &text) const override
       {
         if (integer ? !Patterns::Integer().match(text) : !Patterns::Double().match(text))
           return false;
@@ -72,14 +76,16 @@ namespace Supple
         return value >= lower && std::isfinite(value);
       }
 
-      std::string description(const OutputStyle = Machine) const override
+      std::string
+      description(const OutputStyle = Machine) const override
       {
         std::ostringstream text;
         text << (integer ? "a whole number, " : "a number, ") << lower << " or greater";
         return text.str();
       }
 
-      std::unique_ptr<Patterns::PatternBase> clone() const override
+      std::unique_ptr<Patterns::PatternBase>
+      clone() const override
       {
         return std::make_unique<AtLeast>(*this);
       }
@@ -94,17 +100,20 @@ namespace Supple
     class Finite : public Patterns::PatternBase
     {
     public:
-      bool match(const std::string &text) const override
+      bool
+      match(const std::string &text) const override
       {
         return Patterns::Double().match(text) && std::isfinite(std::stod(text));
       }
 
-      std::string description(const OutputStyle = Machine) const override
+      std::string
+      description(const OutputStyle = Machine) const override
       {
         return "a number";
       }
 
-      std::unique_ptr<Patterns::PatternBase> clone() const override
+      std::unique_ptr<Patterns::PatternBase>
+      clone() const override
       {
         return std::make_unique<Finite>(*this);
       }
@@ -120,12 +129,14 @@ namespace Supple
       {
       }
 
-      std::string description(const OutputStyle style = Machine) const override
+      std::string
+      description(const OutputStyle style = Machine) const override
       {
         return "three values set apart by commas, each " + get_base_pattern().description(style);
       }
 
-      std::unique_ptr<Patterns::PatternBase> clone() const override
+      std::unique_ptr<Patterns::PatternBase>
+      clone() const override
       {
         return std::make_unique<Triple>(get_base_pattern());
       }
@@ -140,12 +151,14 @@ namespace Supple
       {
       }
 
-      std::string description(const OutputStyle = Machine) const override
+      std::string
+      description(const OutputStyle = Machine) const override
       {
         return "boundary ids set apart by commas, or nothing";
       }
 
-      std::unique_ptr<Patterns::PatternBase> clone() const override
+      std::unique_ptr<Patterns::PatternBase>
+      clone() const override
       {
         return std::make_unique<BoundaryIds>();
       }
@@ -161,12 +174,14 @@ namespace Supple
       {
       }
 
-      std::string description(const OutputStyle = Machine) const override
+      std::string
+      description(const OutputStyle = Machine) const override
       {
         return "one of " + std::regex_replace(choices, std::regex("\\|"), ", ");
       }
 
-      std::unique_ptr<Patterns::PatternBase> clone() const override
+      std::unique_ptr<Patterns::PatternBase>
+      clone() const override
       {
         return std::make_unique<OneOf>(choices);
       }
@@ -184,13 +199,15 @@ namespace Supple
       {
       }
 
-      std::string description(const OutputStyle = Machine) const override
+      std::string
+      description(const OutputStyle = Machine) const override
       {
         return n == 1 ? "an expression of x, y, z"
                       : "three expressions of x, y, z, t set apart by semicolons";
       }
 
-      std::unique_ptr<Patterns::PatternBase> clone() const override
+      std::unique_ptr<Patterns::PatternBase>
+      clone() const override
       {
         return std::make_unique<Expressions>(n);
       }
@@ -202,9 +219,10 @@ namespace Supple
 
     const double infinity = std::numeric_limits<double>::infinity();
 
-    std::string full_documentation(const std::string &meaning,
-                                   const std::string &unit,
-                                   const Patterns::PatternBase &pattern)
+    std::string
+    full_documentation(const std::string &meaning,
+                       const std::string &unit,
+                       const Patterns::PatternBase &pattern)
     {
       return meaning + " Unit: " + unit +
              ". Range: " + pattern.description(Patterns::PatternBase::Text) + ".";
@@ -214,12 +232,13 @@ namespace Supple
     /** Declares an entry, bound to @p variable, whose documentation tells its unit and range too.
      */
     template <class T>
-    void add(ParameterHandler &prm,
-             const std::string &entry,
-             T &variable,
-             const std::string &unit,
-             const Patterns::PatternBase &pattern,
-             const std::string &meaning)
+    void
+    add(ParameterHandler &prm,
+        const std::string &entry,
+        T &variable,
+        const std::string &unit,
+        const Patterns::PatternBase &pattern,
+        const std::string &meaning)
     {
       prm.add_parameter(entry, variable, full_documentation(meaning, unit, pattern), pattern);
     }
@@ -227,11 +246,12 @@ namespace Supple
 
     /** The same for a choice between names. */
     template <class Enum>
-    void add_choice(ParameterHandler &prm,
-                    const std::string &entry,
-                    Enum &variable,
-                    const std::vector<std::pair<std::string, Enum>> &choices,
-                    const std::string &meaning)
+    void
+    add_choice(ParameterHandler &prm,
+               const std::string &entry,
+               Enum &variable,
+               const std::vector<std::pair<std::string, Enum>> &choices,
+               const std::string &meaning)
     {
       std::string names, preset;
       for (const auto &[name, value] : choices)
@@ -251,7 +271,8 @@ namespace Supple
   } // namespace
 
 
-  void MeshParameters::declare(ParameterHandler &prm)
+  void
+  MeshParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Mesh");
     add(prm,
@@ -280,7 +301,8 @@ namespace Supple
   }
 
 
-  void MaterialParameters::declare(ParameterHandler &prm)
+  void
+  MaterialParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Material");
     add_choice(prm,
@@ -318,7 +340,8 @@ namespace Supple
   }
 
 
-  void CorotationParameters::declare(ParameterHandler &prm)
+  void
+  CorotationParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Corotation");
     add_choice(
@@ -336,7 +359,8 @@ namespace Supple
   }
 
 
-  void DampingParameters::declare(ParameterHandler &prm)
+  void
+  DampingParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Damping");
     add(
@@ -357,13 +381,15 @@ namespace Supple
   }
 
 
-  bool DampingParameters::any() const
+  bool
+  DampingParameters::any() const
   {
     return mass_factor > 0. || stiffness_factor > 0. || viscous > 0.;
   }
 
 
-  void ConstraintParameters::declare(ParameterHandler &prm)
+  void
+  ConstraintParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Constraints");
     add(prm,
@@ -391,7 +417,8 @@ namespace Supple
   }
 
 
-  void LoadParameters::declare(ParameterHandler &prm)
+  void
+  LoadParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Loads");
     add(prm, "Gravity", gravity, "m/s^2", Triple(Finite()), "Acceleration by gravity.");
@@ -405,7 +432,8 @@ namespace Supple
   }
 
 
-  void StartParameters::declare(ParameterHandler &prm)
+  void
+  StartParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Start");
     add(prm,
@@ -424,7 +452,8 @@ namespace Supple
   }
 
 
-  void TimeParameters::declare(ParameterHandler &prm)
+  void
+  TimeParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Time");
     add_choice(prm,
@@ -457,7 +486,8 @@ namespace Supple
   }
 
 
-  void SolverParameters::declare(ParameterHandler &prm)
+  void
+  SolverParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Solver");
     add_choice(
@@ -490,7 +520,8 @@ namespace Supple
   }
 
 
-  void OutputParameters::declare(ParameterHandler &prm)
+  void
+  OutputParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Output");
     add(prm,
@@ -551,7 +582,8 @@ namespace Supple
   }
 
 
-  void ProbeParameters::declare(ParameterHandler &prm)
+  void
+  ProbeParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Probes");
     const Patterns::Anything any;
@@ -578,20 +610,23 @@ namespace Supple
   }
 
 
-  double MaterialParameters::lame_lambda() const
+  double
+  MaterialParameters::lame_lambda() const
   {
     return constants == Constants::lame ? lambda
                                         : young * poisson / ((1. + poisson) * (1. - 2. * poisson));
   }
 
 
-  double MaterialParameters::lame_mu() const
+  double
+  MaterialParameters::lame_mu() const
   {
     return constants == Constants::lame ? mu : young / (2. * (1. + poisson));
   }
 
 
-  void Parameters::declare(ParameterHandler &prm)
+  void
+  Parameters::declare(ParameterHandler &prm)
   {
     mesh.declare(prm);
     material.declare(prm);
@@ -607,7 +642,8 @@ namespace Supple
   }
 
 
-  void Parameters::check() const
+  void
+  Parameters::check() const
   {
     if (3. * material.lame_lambda() + 2. * material.lame_mu() <= 0.)
       throw InputError(origin("Material/Lame lambda") +
@@ -628,7 +664,8 @@ namespace Supple
   {
     /** What deal.II says of a parameter file, in one line that begins with file:line unless @p
      * place is given. */
-    std::string plain_message(const dealii::ExceptionBase &exception, const std::string &place = "")
+    std::string
+    plain_message(const dealii::ExceptionBase &exception, const std::string &place = "")
     {
       std::ostringstream text;
       exception.print_info(text);
@@ -641,7 +678,8 @@ namespace Supple
 
 
     /** Finds at which line each entry of a parameter file is set. */
-    std::map<std::string, std::string> find_places(const std::string &file, const std::string &text)
+    std::map<std::string, std::string>
+    find_places(const std::string &file, const std::string &text)
     {
       std::map<std::string, std::string> places;
       std::vector<std::string> sections;
@@ -666,7 +704,8 @@ namespace Supple
     }
 
 
-    void apply_override(ParameterHandler &prm, const std::string &text, std::string &entry)
+    void
+    apply_override(ParameterHandler &prm, const std::string &text, std::string &entry)
     {
       const std::string right =
         "--set takes \"Section/Entry=value\", such as --set \"Time/Steps=10\".";
@@ -692,7 +731,8 @@ namespace Supple
   } // namespace
 
 
-  Parameters Parameters::read(const std::string &file, const std::vector<std::string> &overrides)
+  Parameters
+  Parameters::read(const std::string &file, const std::vector<std::string> &overrides)
   {
     // parse_input() makes the file if it is not there
     std::ifstream stream(file);
@@ -739,7 +779,8 @@ namespace Supple
   }
 
 
-  std::string Parameters::origin(const std::string &entry) const
+  std::string
+  Parameters::origin(const std::string &entry) const
   {
     const auto place = places.find(entry);
     if (place == places.end())
@@ -748,13 +789,15 @@ namespace Supple
   }
 
 
-  void Parameters::print(std::ostream &out) const
+  void
+  Parameters::print(std::ostream &out) const
   {
     out << as_used;
   }
 
 
-  void Parameters::print_reference(std::ostream &out, const std::string &format)
+  void
+  Parameters::print_reference(std::ostream &out, const std::string &format)
   {
     Parameters parameters;
     ParameterHandler prm;
@@ -763,8 +806,8 @@ namespace Supple
   }
 
 
-  std::vector<std::pair<std::string, std::string>> named_list(const std::string &text,
-                                                              const std::string &origin)
+  std::vector<std::pair<std::string, std::string>>
+  named_list(const std::string &text, const std::string &origin)
   {
     std::vector<std::pair<std::string, std::string>> list;
     for (const std::string &item : dealii::Utilities::split_string_list(text, ';'))

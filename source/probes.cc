@@ -92,9 +92,10 @@ namespace Supple
   }
 
 
-  void Probes::add_nodes(const std::string &name,
-                         const std::string &what,
-                         const std::vector<bool> &nodes)
+  void
+  Probes::add_nodes(const std::string &name,
+                    const std::string &what,
+                    const std::vector<bool> &nodes)
   {
     Probe probe;
     probe.name = name;
@@ -107,7 +108,8 @@ namespace Supple
   }
 
 
-  std::vector<std::string> Probes::column_names() const
+  std::vector<std::string>
+  Probes::column_names() const
   {
     std::vector<std::string> names = {"step", "time"};
     for (const Probe &probe : probes)
@@ -118,7 +120,8 @@ namespace Supple
   }
 
 
-  std::vector<double> Probes::values(const State &state, const Vector &reactions) const
+  std::vector<double>
+  Probes::values(const State &state, const Vector &reactions) const
   {
     std::vector<double> local(9 * probes.size());
     const bool moving = state.n_blocks() > 1;
@@ -138,7 +141,8 @@ namespace Supple
   }
 
 
-  std::vector<std::string> Probes::descriptions() const
+  std::vector<std::string>
+  Probes::descriptions() const
   {
     std::vector<std::string> lines;
     for (const Probe &probe : probes)

@@ -7,7 +7,8 @@
 
 namespace Supple
 {
-  std::string readable_duration(const double seconds)
+  std::string
+  readable_duration(const double seconds)
   {
     char text[64];
     if (seconds < 60.)
@@ -30,7 +31,8 @@ namespace Supple
   }
 
 
-  void Progress::update(const unsigned int step)
+  void
+  Progress::update(const unsigned int step)
   {
     if (!active)
       return;
@@ -55,7 +57,8 @@ namespace Supple
   }
 
 
-  void Progress::clear()
+  void
+  Progress::clear()
   {
     if (shown)
       std::cout << "\r\033[K" << std::flush;

@@ -6,7 +6,8 @@
 
 namespace Supple
 {
-  Matrix3<double> nearest_rotation(const Matrix3<double> &F)
+  Matrix3<double>
+  nearest_rotation(const Matrix3<double> &F)
   {
     using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
@@ -28,7 +29,8 @@ namespace Supple
   }
 
 
-  void repair_rotations(const Matrix3<Pack> &F, Matrix3<Pack> &R)
+  void
+  repair_rotations(const Matrix3<Pack> &F, Matrix3<Pack> &R)
   {
     const Pack defect = orthogonality_defect(R);
     for (unsigned int lane = 0; lane < n_lanes; ++lane)

@@ -51,14 +51,16 @@ namespace Supple
   }
 
 
-  double Simulation::seconds_since_start() const
+  double
+  Simulation::seconds_since_start() const
   {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
 
   /** A static problem has no velocity, so its state has one block only. */
-  void Simulation::create_initial_state()
+  void
+  Simulation::create_initial_state()
   {
     state.reinit(stationary ? 1 : 2);
     for (unsigned int b = 0; b < state.n_blocks(); ++b)
@@ -85,7 +87,8 @@ namespace Supple
   }
 
 
-  void Simulation::print_description() const
+  void
+  Simulation::print_description() const
   {
     if (!talks)
       return;
@@ -121,7 +124,8 @@ namespace Supple
   }
 
 
-  void Simulation::open_output()
+  void
+  Simulation::open_output()
   {
     const bool root = Utilities::MPI::this_mpi_process(communicator) == 0;
     std::string problem;
@@ -160,7 +164,8 @@ namespace Supple
   }
 
 
-  void Simulation::run()
+  void
+  Simulation::run()
   {
     open_output();
     print_description();
@@ -183,7 +188,8 @@ namespace Supple
   }
 
 
-  void Simulation::time_loop()
+  void
+  Simulation::time_loop()
   {
     const InterruptGuard interrupt;
     while (step < parameters.time.n_steps)
@@ -203,13 +209,15 @@ namespace Supple
   }
 
 
-  double Simulation::time_of(const unsigned int step) const
+  double
+  Simulation::time_of(const unsigned int step) const
   {
     return stationary ? double(step) / parameters.time.n_steps : step * parameters.time.step;
   }
 
 
-  void Simulation::advance()
+  void
+  Simulation::advance()
   {
     const double time       = time_of(step + 1);
     const StepReport report = integrator->advance(state, time, writes);
@@ -221,7 +229,8 @@ namespace Supple
   }
 
 
-  void Simulation::record(const StepReport &report)
+  void
+  Simulation::record(const StepReport &report)
   {
     if (!writes)
       return;
@@ -247,7 +256,8 @@ namespace Supple
   }
 
 
-  void Simulation::finish(const std::string &status)
+  void
+  Simulation::finish(const std::string &status)
   {
     if (frames)
       {

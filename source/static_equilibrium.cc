@@ -18,14 +18,16 @@ namespace Supple
   }
 
 
-  std::string StaticEquilibrium::name() const
+  std::string
+  StaticEquilibrium::name() const
   {
     return model.body.rotation == RotationMethod::none ? "static, one linear solution a load step"
                                                        : "static, Newton's method in load steps";
   }
 
 
-  void StaticEquilibrium::update_residual(const Vector &displacement, const double load_factor)
+  void
+  StaticEquilibrium::update_residual(const Vector &displacement, const double load_factor)
   {
     model.body.update_rotations(displacement, model.effort);
     model.body.internal_force(residual, displacement, model.effort);
@@ -33,7 +35,8 @@ namespace Supple
   }
 
 
-  double StaticEquilibrium::energy(const Vector &displacement, const double load_factor) const
+  double
+  StaticEquilibrium::energy(const Vector &displacement, const double load_factor) const
   {
     const GhostValues values(displacement);
     const double elastic = model.body.tetrahedra->sums(values.data(), nullptr).elastic;
@@ -42,7 +45,8 @@ namespace Supple
   }
 
 
-  void StaticEquilibrium::add_correction(Vector &displacement, const double load_factor)
+  void
+  StaticEquilibrium::add_correction(Vector &displacement, const double load_factor)
   {
     if (model.body.rotation != RotationMethod::polar) // linear: exact; Gram-Schmidt: no energy
       {
@@ -67,7 +71,8 @@ namespace Supple
   }
 
 
-  StepReport StaticEquilibrium::advance(State &state, const double load_factor, const bool observed)
+  StepReport
+  StaticEquilibrium::advance(State &state, const double load_factor, const bool observed)
   {
     const TimeParameters &time = model.parameters.time;
     const bool linear          = model.body.rotation == RotationMethod::none;

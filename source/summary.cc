@@ -13,7 +13,8 @@ namespace Supple
 
   namespace
   {
-    Json what_was_built(const Summary &summary, const Model &model)
+    Json
+    what_was_built(const Summary &summary, const Model &model)
     {
       const Effort &effort = model.effort;
       return {{"mass_matrix", model.implicit_operator.has_mass()},
@@ -31,7 +32,8 @@ namespace Supple
     }
 
 
-    Json energies(const Measurement &last)
+    Json
+    energies(const Measurement &last)
     {
       return {{"time", last.time},
               {"kinetic", last.kinetic},
@@ -46,7 +48,8 @@ namespace Supple
     }
 
 
-    Json warnings(const Model &model)
+    Json
+    warnings(const Model &model)
     {
       Json list = Json::array();
       if (model.body.rotation == RotationMethod::gram_schmidt)
@@ -65,7 +68,8 @@ namespace Supple
   } // namespace
 
 
-  std::string Summary::to_json(const Model &model) const
+  std::string
+  Summary::to_json(const Model &model) const
   {
     const Effort &effort = model.effort;
     Json json;

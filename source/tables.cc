@@ -18,7 +18,8 @@ namespace Supple
   }
 
 
-  void CsvFile::write_row(const std::vector<double> &values)
+  void
+  CsvFile::write_row(const std::vector<double> &values)
   {
     std::ostringstream row; // the row goes to the disk in one piece
     row.precision(15);
@@ -31,7 +32,8 @@ namespace Supple
   }
 
 
-  void write_whole_file(const std::string &file, const std::string &content)
+  void
+  write_whole_file(const std::string &file, const std::string &content)
   {
     const std::string aside = file + ".partial";
     {

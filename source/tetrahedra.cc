@@ -14,19 +14,22 @@ namespace Supple
 
     using Vector3 = std::array<double, 3>;
 
-    Vector3 difference(const Vector3 &a, const Vector3 &b)
+    Vector3
+    difference(const Vector3 &a, const Vector3 &b)
     {
       return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}};
     }
 
-    Vector3 cross(const Vector3 &a, const Vector3 &b)
+    Vector3
+    cross(const Vector3 &a, const Vector3 &b)
     {
       return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
     }
 
 
     /** Gradients of the four linear shape functions; returns the volume. */
-    double shape_gradients(const std::array<Vector3, 4> &X, std::array<Vector3, 4> &g)
+    double
+    shape_gradients(const std::array<Vector3, 4> &X, std::array<Vector3, 4> &g)
     {
       const Vector3 d1 = difference(X[1], X[0]), d2 = difference(X[2], X[0]),
                     d3 = difference(X[3], X[0]);
@@ -88,7 +91,8 @@ namespace Supple
   }
 
 
-  void Tetrahedra::connect(const SymmetricPattern &pattern)
+  void
+  Tetrahedra::connect(const SymmetricPattern &pattern)
   {
     slots.resize(batches.size());
     for (std::size_t b = 0; b < batches.size(); ++b)
@@ -107,7 +111,8 @@ namespace Supple
   }
 
 
-  Tetrahedra::NodalPack Tetrahedra::gather(const Batch &batch, const double *nodal)
+  Tetrahedra::NodalPack
+  Tetrahedra::gather(const Batch &batch, const double *nodal)
   {
     NodalPack values;
     for (unsigned int a = 0; a < 4; ++a)
@@ -123,7 +128,8 @@ namespace Supple
   }
 
 
-  void Tetrahedra::scatter(const Batch &batch, const NodalPack &values, double *nodal)
+  void
+  Tetrahedra::scatter(const Batch &batch, const NodalPack &values, double *nodal)
   {
     for (unsigned int a = 0; a < 4; ++a)
       {
@@ -137,7 +143,8 @@ namespace Supple
   }
 
 
-  Matrix3<Pack> Tetrahedra::gradient(const Batch &batch, const NodalPack &values)
+  Matrix3<Pack>
+  Tetrahedra::gradient(const Batch &batch, const NodalPack &values)
   {
     Matrix3<Pack> G;
     for (unsigned int i = 0; i < 3; ++i)
@@ -148,8 +155,8 @@ namespace Supple
   }
 
 
-  Matrix3<Pack> Tetrahedra::deformation_gradient(const Batch &batch,
-                                                 const double *displacement) const
+  Matrix3<Pack>
+  Tetrahedra::deformation_gradient(const Batch &batch, const double *displacement) const
   {
     Matrix3<Pack> F = gradient(batch, gather(batch, displacement));
     for (unsigned int i = 0; i < 3; ++i)
@@ -159,7 +166,8 @@ namespace Supple
 
 
   /** sym(R^T F); the strain is this minus the identity where F is a deformation gradient. */
-  Matrix3<Pack> Tetrahedra::strain(const Matrix3<Pack> &R, const Matrix3<Pack> &F)
+  Matrix3<Pack>
+  Tetrahedra::strain(const Matrix3<Pack> &R, const Matrix3<Pack> &F)
   {
     Matrix3<Pack> S = transposed_product(R, F);
     for (unsigned int i = 0; i < 3; ++i)
@@ -169,7 +177,8 @@ namespace Supple
   }
 
 
-  Matrix3<Pack> Tetrahedra::stress(const Batch &batch, const Matrix3<Pack> &strain)
+  Matrix3<Pack>
+  Tetrahedra::stress(const Batch &batch, const Matrix3<Pack> &strain)
   {
     Matrix3<Pack> P;
     for (unsigned int k = 0; k < 9; ++k)
@@ -181,9 +190,10 @@ namespace Supple
   }
 
 
-  void Tetrahedra::add_stress_divergence(const std::size_t b,
-                                         const Matrix3<Pack> &strain,
-                                         double *force) const
+  void
+  Tetrahedra::add_stress_divergence(const std::size_t b,
+                                    const Matrix3<Pack> &strain,
+                                    double *force) const
   {
     const Batch &batch = batches[b];
     Matrix3<Pack> P    = stress(batch, strain);
@@ -199,7 +209,8 @@ namespace Supple
   }
 
 
-  void Tetrahedra::update_rotations(const RotationMethod method, const double *displacement)
+  void
+  Tetrahedra::update_rotations(const RotationMethod method, const double *displacement)
   {
     rotations.resize(batches.size());
     for (std::size_t b = 0; b < batches.size(); ++b)
@@ -207,7 +218,8 @@ namespace Supple
   }
 
 
-  void Tetrahedra::add_internal_force(const double *displacement, double *force) const
+  void
+  Tetrahedra::add_internal_force(const double *displacement, double *force) const
   {
     const Matrix3<Pack> I = Matrix3<Pack>::identity();
     for (std::size_t b = 0; b < batches.size(); ++b)
@@ -221,7 +233,8 @@ namespace Supple
   }
 
 
-  void Tetrahedra::add_stiffness_product(const double *w, double *y) const
+  void
+  Tetrahedra::add_stiffness_product(const double *w, double *y) const
   {
     const Matrix3<Pack> I = Matrix3<Pack>::identity();
     for (std::size_t b = 0; b < batches.size(); ++b)
@@ -232,7 +245,8 @@ namespace Supple
   }
 
 
-  std::pair<Pack, Pack> Tetrahedra::mass_entries(const Batch &batch) const
+  std::pair<Pack, Pack>
+  Tetrahedra::mass_entries(const Batch &batch) const
   {
     const Pack mass = batch.density * batch.volume;
     if (lumped_mass)
@@ -241,7 +255,8 @@ namespace Supple
   }
 
 
-  void Tetrahedra::add_mass_product(const double *w, double *y) const
+  void
+  Tetrahedra::add_mass_product(const double *w, double *y) const
   {
     for (const Batch &batch : batches)
       {
@@ -258,7 +273,8 @@ namespace Supple
   }
 
 
-  void Tetrahedra::add_load(const double *force_density, double *force) const
+  void
+  Tetrahedra::add_load(const double *force_density, double *force) const
   {
     for (const Batch &batch : batches)
       {
@@ -274,9 +290,10 @@ namespace Supple
   }
 
 
-  void Tetrahedra::add_tangent(const double mass_factor,
-                               const double stiffness_factor,
-                               SymmetricBlockMatrix &A) const
+  void
+  Tetrahedra::add_tangent(const double mass_factor,
+                          const double stiffness_factor,
+                          SymmetricBlockMatrix &A) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
       {
@@ -322,7 +339,8 @@ namespace Supple
   }
 
 
-  void Tetrahedra::add_mass(SymmetricScalarMatrix &M) const
+  void
+  Tetrahedra::add_mass(SymmetricScalarMatrix &M) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
       {
@@ -338,7 +356,8 @@ namespace Supple
   }
 
 
-  void Tetrahedra::add_nodal_mass(double *mass) const
+  void
+  Tetrahedra::add_nodal_mass(double *mass) const
   {
     for (const Batch &batch : batches)
       for (unsigned int lane = 0; lane < n_lanes; ++lane)
@@ -347,7 +366,8 @@ namespace Supple
   }
 
 
-  CellSums Tetrahedra::sums(const double *displacement, const double *velocity) const
+  CellSums
+  Tetrahedra::sums(const double *displacement, const double *velocity) const
   {
     CellSums sums;
     const Matrix3<Pack> I = Matrix3<Pack>::identity();
@@ -418,7 +438,8 @@ namespace Supple
   }
 
 
-  std::vector<CellState> Tetrahedra::states(const double *displacement) const
+  std::vector<CellState>
+  Tetrahedra::states(const double *displacement) const
   {
     std::vector<CellState> states(n_cells);
     const Matrix3<Pack> I = Matrix3<Pack>::identity();

@@ -11,8 +11,8 @@ namespace Supple
   }
 
 
-  std::unique_ptr<TimeIntegrator> TimeIntegrator::create(const Model &model,
-                                                         const Vector &displacement)
+  std::unique_ptr<TimeIntegrator>
+  TimeIntegrator::create(const Model &model, const Vector &displacement)
   {
     if (model.parameters.time.problem == TimeParameters::Problem::stationary)
       return std::make_unique<StaticEquilibrium>(model);
@@ -20,7 +20,8 @@ namespace Supple
   }
 
 
-  void TimeIntegrator::set_reactions(const Vector &force)
+  void
+  TimeIntegrator::set_reactions(const Vector &force)
   {
     for (const unsigned int dof : model.constraints.owned())
       reaction.local_element(dof) = force.local_element(dof);

@@ -16,7 +16,8 @@ namespace
 {
   using Nodal = std::vector<double>;
 
-  void report(const char *what, const double value, const double limit)
+  void
+  report(const char *what, const double value, const double limit)
   {
     if (value <= limit)
       std::printf("%s: at most %.0e\n", what, limit);
@@ -25,13 +26,15 @@ namespace
   }
 
 
-  void report_larger(const char *what, const double value, const double limit)
+  void
+  report_larger(const char *what, const double value, const double limit)
   {
     std::printf("%s: %s %.0e\n", what, value > limit ? "more than" : "NOT more than", limit);
   }
 
 
-  double norm(const Nodal &v)
+  double
+  norm(const Nodal &v)
   {
     double sum = 0.;
     for (const double x : v)
@@ -73,13 +76,15 @@ namespace
         cells.push_back({nodes, lambda, mu, density, true});
     }
 
-    Tetrahedra tetrahedra(const bool lumped = false) const
+    Tetrahedra
+    tetrahedra(const bool lumped = false) const
     {
       return {positions, cells, lumped};
     }
 
     /** u = G x + t sin(...) */
-    Nodal displacement(const std::array<double, 9> &G, const double waves = 0.) const
+    Nodal
+    displacement(const std::array<double, 9> &G, const double waves = 0.) const
     {
       Nodal u;
       for (const auto &x : positions)
@@ -89,7 +94,8 @@ namespace
       return u;
     }
 
-    Nodal force(const Tetrahedra &tetrahedra, const Nodal &u) const
+    Nodal
+    force(const Tetrahedra &tetrahedra, const Nodal &u) const
     {
       Nodal f(u.size());
       tetrahedra.add_internal_force(u.data(), f.data());
@@ -97,13 +103,15 @@ namespace
     }
 
     /** Force with the rotations of the same displacement. */
-    Nodal own_force(Tetrahedra &tetrahedra, const RotationMethod method, const Nodal &u) const
+    Nodal
+    own_force(Tetrahedra &tetrahedra, const RotationMethod method, const Nodal &u) const
     {
       tetrahedra.update_rotations(method, u.data());
       return force(tetrahedra, u);
     }
 
-    double own_energy(Tetrahedra &tetrahedra, const RotationMethod method, const Nodal &u) const
+    double
+    own_energy(Tetrahedra &tetrahedra, const RotationMethod method, const Nodal &u) const
     {
       tetrahedra.update_rotations(method, u.data());
       return tetrahedra.sums(u.data(), nullptr).elastic;
@@ -112,7 +120,8 @@ namespace
 
 
   /** Rotation about an axis minus the identity, by rows. */
-  std::array<double, 9> rigid_rotation(const double angle)
+  std::array<double, 9>
+  rigid_rotation(const double angle)
   {
     const double a[3] = {1. / 3., 2. / 3., 2. / 3.};
     std::array<double, 9> G;
@@ -130,7 +139,8 @@ namespace
 
 
   /** x -> Q x for displacements: u -> Q (X + u) - X. */
-  Nodal turned(const JitteredBox &box, const Nodal &u, const std::array<double, 9> &Q_minus_I)
+  Nodal
+  turned(const JitteredBox &box, const Nodal &u, const std::array<double, 9> &Q_minus_I)
   {
     Nodal result = u;
     for (std::size_t node = 0; node < box.positions.size(); ++node)
@@ -141,7 +151,8 @@ namespace
   }
 
 
-  void test_rotations()
+  void
+  test_rotations()
   {
     std::printf("Rotations of 2000 random matrices and of extreme ones\n");
     std::mt19937 generator(2);
@@ -209,7 +220,8 @@ namespace
   }
 
 
-  void test_patch(const JitteredBox &box)
+  void
+  test_patch(const JitteredBox &box)
   {
     std::printf("Patch test: constant strain, inner forces over boundary forces\n");
     const std::array<double, 9> G = {{0.02, 0.01, -0.03, 0.015, -0.01, 0.02, 0.01, 0.005, 0.03}};
@@ -243,7 +255,8 @@ namespace
   }
 
 
-  void test_rigid_rotation(const JitteredBox &box)
+  void
+  test_rigid_rotation(const JitteredBox &box)
   {
     std::printf("Rigid rotation by 10 to 180 degrees\n");
     double polar = 0., gram_schmidt = 0., volume = 0., angle_error = 0.;
@@ -267,7 +280,8 @@ namespace
   }
 
 
-  void test_energy(const JitteredBox &box)
+  void
+  test_energy(const JitteredBox &box)
   {
     std::printf("Force against differences of the elastic energy, largely deformed\n");
     const std::array<double, 9> G = rigid_rotation(1.);
@@ -345,7 +359,8 @@ namespace
   }
 
 
-  void test_stiffness(const JitteredBox &box)
+  void
+  test_stiffness(const JitteredBox &box)
   {
     std::printf("Operator against differences of the force with rotations held\n");
     const Nodal u = box.displacement(rigid_rotation(0.7), 0.1);
@@ -400,7 +415,8 @@ namespace
   }
 
 
-  void test_momentum(const JitteredBox &box)
+  void
+  test_momentum(const JitteredBox &box)
   {
     std::printf("Momenta and energy of a body that turns about the axis (1, 2, 3)\n");
     for (const bool lumped : {false, true})

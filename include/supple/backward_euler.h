@@ -23,34 +23,45 @@ namespace Supple
   public:
     BackwardEuler(const Model &model, const Vector &displacement);
 
-    StepReport advance(State &state, double time, bool observed) override;
+    StepReport
+    advance(State &state, double time, bool observed) override;
 
-    std::string name() const override;
+    std::string
+    name() const override;
 
   private:
     using ARKode = dealii::SUNDIALS::ARKode<State>;
 
-    static ARKode::AdditionalData settings(const Parameters &parameters);
+    static ARKode::AdditionalData
+    settings(const Parameters &parameters);
 
-    void set_callbacks();
+    void
+    set_callbacks();
 
-    void set_options(void *arkode_memory);
+    void
+    set_options(void *arkode_memory);
 
     /** f - D v - f_int(u), zero where the body is held. */
-    void net_force(double time, const State &y, Vector &force);
+    void
+    net_force(double time, const State &y, Vector &force);
 
-    void solve_eliminated(const State &r, State &z);
+    void
+    solve_eliminated(const State &r, State &z);
 
     /** x = M^-1 b, starting from the increment that the last step's linear system gave. */
-    void solve_mass(Vector &x, const Vector &b);
+    void
+    solve_mass(Vector &x, const Vector &b);
 
-    void observe(const State &state, double time, StepReport &report);
+    void
+    observe(const State &state, double time, StepReport &report);
 
     /** Keeps what is thrown inside a callback, since SUNDIALS in between knows no exceptions. */
     template <class Action>
-    int guarded(const Action &action);
+    int
+    guarded(const Action &action);
 
-    void throw_what_failed();
+    void
+    throw_what_failed();
 
     ARKode ode;
     double gamma = 0.;

@@ -23,13 +23,15 @@ namespace Supple
     std::vector<std::size_t> row_start; ///< n_local + 1 positions into column
     std::vector<std::uint32_t> column;  ///< ascending within a row, each below n_owned
 
-    std::size_t n_entries() const
+    std::size_t
+    n_entries() const
     {
       return column.size();
     }
 
     /** The position of the entry (row, column); n_entries() where there is none. */
-    std::size_t position(unsigned int row, unsigned int column) const;
+    std::size_t
+    position(unsigned int row, unsigned int column) const;
   };
 
 
@@ -40,10 +42,12 @@ namespace Supple
   public:
     SymmetricBlockMatrix(const SymmetricPattern &pattern);
 
-    void set_zero();
+    void
+    set_zero();
 
     /** y = A x for the owned rows; x must have valid ghost values. Arrays of 3 n_local doubles. */
-    void vmult(double *y, const double *x) const;
+    void
+    vmult(double *y, const double *x) const;
 
     const SymmetricPattern &pattern;
     std::vector<double> lower;    ///< 9 (n_entries + 1)
@@ -58,7 +62,8 @@ namespace Supple
     SymmetricScalarMatrix(const SymmetricPattern &pattern);
 
     /** y = A x for the owned rows, as SymmetricBlockMatrix::vmult(). */
-    void vmult(double *y, const double *x) const;
+    void
+    vmult(double *y, const double *x) const;
 
     const SymmetricPattern &pattern;
     std::vector<double> lower;    ///< n_entries + 1

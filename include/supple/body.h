@@ -45,28 +45,36 @@ namespace Supple
 
     std::unique_ptr<Tetrahedra> tetrahedra;
 
-    void initialize(Vector &vector) const;
+    void
+    initialize(Vector &vector) const;
 
     /** R of every cell from the displacement; nothing to do for linear elasticity. */
-    void update_rotations(const Vector &displacement, Effort &effort) const;
+    void
+    update_rotations(const Vector &displacement, Effort &effort) const;
 
     /** f = sum R K (R^T x - X) on owned nodes, held ones included, with the rotations of the last
      * update. */
-    void internal_force(Vector &force, const Vector &displacement, Effort &effort) const;
+    void
+    internal_force(Vector &force, const Vector &displacement, Effort &effort) const;
 
-    dealii::Point<3> position(unsigned int node) const;
+    dealii::Point<3>
+    position(unsigned int node) const;
 
     /** The nodes of a boundary. @throws InputError beginning with @p origin if there are none. */
-    std::vector<bool> boundary_nodes(unsigned int boundary_id, const std::string &origin) const;
+    std::vector<bool>
+    boundary_nodes(unsigned int boundary_id, const std::string &origin) const;
 
     /** The nodes where an expression is not zero. @throws InputError beginning with @p origin if
      * there are none. */
-    std::vector<bool> region_nodes(const std::string &expression, const std::string &origin) const;
+    std::vector<bool>
+    region_nodes(const std::string &expression, const std::string &origin) const;
 
   private:
-    void number_nodes();
+    void
+    number_nodes();
 
-    void collect_cells(const MaterialParameters &material);
+    void
+    collect_cells(const MaterialParameters &material);
   };
 } // namespace Supple
 

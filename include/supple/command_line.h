@@ -26,9 +26,11 @@ namespace Supple
     bool quiet         = false;
 
     /** @throws InputError */
-    static CommandLine parse(int argc, char **argv);
+    static CommandLine
+    parse(int argc, char **argv);
 
-    static std::string help();
+    static std::string
+    help();
   };
 } // namespace Supple
 

@@ -27,7 +27,8 @@ namespace Supple
 
     /** Where ARKode's errors go: into @p message, which must outlive the solver, and not onto the
      * screen. */
-    inline void collect_arkode_errors(void *arkode_memory, std::string &message)
+    inline void
+    collect_arkode_errors(void *arkode_memory, std::string &message)
     {
 #if DEAL_II_SUNDIALS_VERSION_GTE(7, 0, 0)
       (void)arkode_memory;
@@ -44,7 +45,8 @@ namespace Supple
     }
 
 
-    inline dealii::IndexSet locally_relevant_dofs(const dealii::DoFHandler<3> &dof_handler)
+    inline dealii::IndexSet
+    locally_relevant_dofs(const dealii::DoFHandler<3> &dof_handler)
     {
 #if DEAL_II_VERSION_GTE(9, 6, 0)
       return dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);

@@ -13,24 +13,28 @@ namespace Supple
     Constraints(const Body &body, const Parameters &parameters);
 
     /** By local number of the degree of freedom, ghosts included. */
-    bool holds(const unsigned int dof) const
+    bool
+    holds(const unsigned int dof) const
     {
       return held[dof];
     }
 
-    bool holds_node(const unsigned int node) const
+    bool
+    holds_node(const unsigned int node) const
     {
       return held[3 * node] && held[3 * node + 1] && held[3 * node + 2];
     }
 
     /** The held degrees of freedom this process owns, ascending. */
-    const std::vector<unsigned int> &owned() const
+    const std::vector<unsigned int> &
+    owned() const
     {
       return held_owned;
     }
 
     /** Sets the held entries to zero. */
-    void set_zero(Vector &vector) const;
+    void
+    set_zero(Vector &vector) const;
 
     unsigned int n_held; ///< degrees of freedom on all processes
 
@@ -38,7 +42,8 @@ namespace Supple
     unsigned int n_free_rigid_motions;
 
   private:
-    unsigned int count_free_rigid_motions(const Body &body) const;
+    unsigned int
+    count_free_rigid_motions(const Body &body) const;
 
     std::vector<bool> held;
     std::vector<unsigned int> held_owned;

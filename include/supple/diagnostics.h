@@ -33,9 +33,11 @@ namespace Supple
     unsigned int linear_iterations = 0;
     double seconds                 = 0.; ///< since the start of the run
 
-    static std::vector<std::string> column_names();
+    static std::vector<std::string>
+    column_names();
 
-    std::vector<double> row() const;
+    std::vector<double>
+    row() const;
   };
 
 
@@ -51,11 +53,12 @@ namespace Supple
     Diagnostics(const Body &body, const Loads &loads, bool stationary);
 
     /** To be called once per step, with the rotations of @p state. */
-    Measurement measure(unsigned int step,
-                        double time,
-                        double seconds,
-                        const State &state,
-                        const StepReport &report);
+    Measurement
+    measure(unsigned int step,
+            double time,
+            double seconds,
+            const State &state,
+            const StepReport &report);
 
   private:
     const Body &body;

@@ -54,8 +54,9 @@ namespace Supple
       seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
 
-    PhaseTimer(const PhaseTimer &)            = delete;
-    PhaseTimer &operator=(const PhaseTimer &) = delete;
+    PhaseTimer(const PhaseTimer &) = delete;
+    PhaseTimer &
+    operator=(const PhaseTimer &) = delete;
 
   private:
     double &seconds;

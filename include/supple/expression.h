@@ -23,17 +23,21 @@ namespace Supple
      */
     Expression(const std::string &text, unsigned int n_components, const std::string &origin);
 
-    double value(const dealii::Point<3> &point, double time, unsigned int component = 0) const;
+    double
+    value(const dealii::Point<3> &point, double time, unsigned int component = 0) const;
 
-    dealii::Tensor<1, 3> vector_value(const dealii::Point<3> &point, double time) const;
+    dealii::Tensor<1, 3>
+    vector_value(const dealii::Point<3> &point, double time) const;
 
     /** True for "0" and "0; 0; 0": nothing to evaluate. */
-    bool is_zero() const
+    bool
+    is_zero() const
     {
       return zero;
     }
 
-    bool depends_on_time() const
+    bool
+    depends_on_time() const
     {
       return time_dependent;
     }

@@ -18,23 +18,29 @@ namespace Supple
     Frames(const Body &body, const OutputParameters &parameters, const std::string &folder);
 
     /** Whether something has happened that should be seen. */
-    bool due(const State &state, const Measurement &now) const;
+    bool
+    due(const State &state, const Measurement &now) const;
 
     /** Writes the state, unless it was written already. The rotations must be those of the state.
      */
-    void write(const State &state, const Measurement &now);
+    void
+    write(const State &state, const Measurement &now);
 
-    unsigned int n_written() const
+    unsigned int
+    n_written() const
     {
       return records.size();
     }
 
   private:
-    bool has_moved(const Vector &displacement) const;
+    bool
+    has_moved(const Vector &displacement) const;
 
-    bool volume_has_changed(const Measurement &now) const;
+    bool
+    volume_has_changed(const Measurement &now) const;
 
-    void write_vtu(const State &state, const Measurement &now, const std::string &name);
+    void
+    write_vtu(const State &state, const Measurement &now, const std::string &name);
 
     const Body &body;
     const OutputParameters &parameters;

@@ -25,31 +25,39 @@ namespace Supple
                      Effort &effort);
 
     /** A = M + gamma D + gamma^2 K' with the rotations the body has now. */
-    void assemble(double gamma);
+    void
+    assemble(double gamma);
 
     /** A = K' with the rotations the body has now. */
-    void assemble_stiffness();
+    void
+    assemble_stiffness();
 
     /** y = A x */
-    void vmult(Vector &y, const Vector &x) const;
+    void
+    vmult(Vector &y, const Vector &x) const;
 
     /** y = M x */
-    void mass_vmult(Vector &y, const Vector &x) const;
+    void
+    mass_vmult(Vector &y, const Vector &x) const;
 
     /** y = K' x, from the cells. */
-    void stiffness_vmult(Vector &y, const Vector &x) const;
+    void
+    stiffness_vmult(Vector &y, const Vector &x) const;
 
-    const SymmetricBlockMatrix &matrix() const
+    const SymmetricBlockMatrix &
+    matrix() const
     {
       return A;
     }
 
-    const SymmetricScalarMatrix &mass_matrix() const
+    const SymmetricScalarMatrix &
+    mass_matrix() const
     {
       return *M;
     }
 
-    bool has_mass() const
+    bool
+    has_mass() const
     {
       return M != nullptr;
     }
@@ -59,11 +67,14 @@ namespace Supple
     const DampingParameters &damping;
 
   private:
-    void assemble(double mass_factor, double stiffness_factor, double diagonal_term);
+    void
+    assemble(double mass_factor, double stiffness_factor, double diagonal_term);
 
-    SymmetricPattern make_pattern() const;
+    SymmetricPattern
+    make_pattern() const;
 
-    void find_masked_entries();
+    void
+    find_masked_entries();
 
     Effort &effort;
     const SymmetricPattern pattern;

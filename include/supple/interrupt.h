@@ -12,11 +12,13 @@ namespace Supple
     InterruptGuard();
     ~InterruptGuard();
 
-    InterruptGuard(const InterruptGuard &)            = delete;
-    InterruptGuard &operator=(const InterruptGuard &) = delete;
+    InterruptGuard(const InterruptGuard &) = delete;
+    InterruptGuard &
+    operator=(const InterruptGuard &) = delete;
 
     /** Whether any process has been asked to stop; the same answer on all. */
-    bool requested(MPI_Comm communicator) const;
+    bool
+    requested(MPI_Comm communicator) const;
   };
 } // namespace Supple
 

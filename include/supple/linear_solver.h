@@ -23,16 +23,19 @@ namespace Supple
      * @param displacement of the body now: multigrid takes its rigid motions from there [m]
      * @throws ComputationError if A is not positive definite
      */
-    void prepare(const Vector &displacement);
+    void
+    prepare(const Vector &displacement);
 
     /**
      * x = A^-1 b. The true residual |b - A x| is computed and kept in Effort.
      * @return the number of iterations, 0 for a direct solver
      * @throws ComputationError if it does not converge or something is not a number
      */
-    unsigned int solve(Vector &x, const Vector &b);
+    unsigned int
+    solve(Vector &x, const Vector &b);
 
-    virtual std::string name() const = 0;
+    virtual std::string
+    name() const = 0;
 
     std::string reason; ///< why this solver
 
@@ -44,9 +47,11 @@ namespace Supple
     Effort &effort;
 
   private:
-    virtual void do_prepare(const Vector &displacement) = 0;
+    virtual void
+    do_prepare(const Vector &displacement) = 0;
 
-    virtual unsigned int do_solve(Vector &x, const Vector &b) = 0;
+    virtual unsigned int
+    do_solve(Vector &x, const Vector &b) = 0;
 
     Vector residual;
   };
@@ -57,18 +62,20 @@ namespace Supple
   make_ldlt_solver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort);
 
   /** CHOLMOD's supernodal Cholesky factorization: one process, bodies of middle size. */
-  std::unique_ptr<LinearSolver> make_cholmod_solver(const ImplicitOperator &A,
-                                                    const SolverParameters &parameters,
-                                                    Effort &effort);
+  std::unique_ptr<LinearSolver>
+  make_cholmod_solver(const ImplicitOperator &A,
+                      const SolverParameters &parameters,
+                      Effort &effort);
 
   /** Conjugate gradients with Trilinos ML and the six rigid motions of the deformed body. */
   std::unique_ptr<LinearSolver>
   make_cg_ml_solver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort);
 
   /** Conjugate gradients with the inverted 3x3 diagonal blocks. */
-  std::unique_ptr<LinearSolver> make_cg_jacobi_solver(const ImplicitOperator &A,
-                                                      const SolverParameters &parameters,
-                                                      Effort &effort);
+  std::unique_ptr<LinearSolver>
+  make_cg_jacobi_solver(const ImplicitOperator &A,
+                        const SolverParameters &parameters,
+                        Effort &effort);
 } // namespace Supple
 
 #endif

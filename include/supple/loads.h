@@ -14,21 +14,26 @@ namespace Supple
 
     /** The load vector [N] at a time [s]; held entries are not set to zero. Valid until the next
      * call. */
-    const Vector &force(double time) const;
+    const Vector &
+    force(double time) const;
 
     /** The part of force() that is no gravity, and does work which potential() does not count. */
-    const Vector &body_force(double time) const;
+    const Vector &
+    body_force(double time) const;
 
-    bool has_body_force() const
+    bool
+    has_body_force() const
     {
       return !expression.is_zero();
     }
 
     /** Potential energy of gravity [J], zero at rest position. */
-    double potential(const Vector &displacement) const;
+    double
+    potential(const Vector &displacement) const;
 
   private:
-    void evaluate(double time) const;
+    void
+    evaluate(double time) const;
 
     const Body &body;
     const Expression expression;

@@ -19,17 +19,20 @@ namespace Supple
   {
     std::array<Number, 9> entries;
 
-    const Number &operator()(const unsigned int row, const unsigned int column) const
+    const Number &
+    operator()(const unsigned int row, const unsigned int column) const
     {
       return entries[3 * row + column];
     }
 
-    Number &operator()(const unsigned int row, const unsigned int column)
+    Number &
+    operator()(const unsigned int row, const unsigned int column)
     {
       return entries[3 * row + column];
     }
 
-    static Matrix3 identity()
+    static Matrix3
+    identity()
     {
       const Number zero(0.), one(1.);
       return {{{one, zero, zero, zero, one, zero, zero, zero, one}}};
@@ -38,7 +41,8 @@ namespace Supple
 
 
   template <class Number>
-  Matrix3<Number> operator*(const Matrix3<Number> &A, const Matrix3<Number> &B)
+  Matrix3<Number>
+  operator*(const Matrix3<Number> &A, const Matrix3<Number> &B)
   {
     Matrix3<Number> C;
     for (unsigned int i = 0; i < 3; ++i)
@@ -50,7 +54,8 @@ namespace Supple
 
   /** A^T B */
   template <class Number>
-  Matrix3<Number> transposed_product(const Matrix3<Number> &A, const Matrix3<Number> &B)
+  Matrix3<Number>
+  transposed_product(const Matrix3<Number> &A, const Matrix3<Number> &B)
   {
     Matrix3<Number> C;
     for (unsigned int i = 0; i < 3; ++i)
@@ -62,7 +67,8 @@ namespace Supple
 
   /** The cofactor matrix, det(F) F^-T; it exists for every F. */
   template <class Number>
-  Matrix3<Number> cofactor(const Matrix3<Number> &F)
+  Matrix3<Number>
+  cofactor(const Matrix3<Number> &F)
   {
     Matrix3<Number> C;
     for (unsigned int i = 0; i < 3; ++i)
@@ -77,7 +83,8 @@ namespace Supple
 
 
   template <class Number>
-  Number trace(const Matrix3<Number> &F)
+  Number
+  trace(const Matrix3<Number> &F)
   {
     return F(0, 0) + F(1, 1) + F(2, 2);
   }
@@ -85,7 +92,8 @@ namespace Supple
 
   /** A : A */
   template <class Number>
-  Number norm_square(const Matrix3<Number> &A)
+  Number
+  norm_square(const Matrix3<Number> &A)
   {
     Number sum = A.entries[0] * A.entries[0];
     for (unsigned int k = 1; k < 9; ++k)
@@ -95,7 +103,8 @@ namespace Supple
 
 
   template <class Number>
-  Number determinant(const Matrix3<Number> &F)
+  Number
+  determinant(const Matrix3<Number> &F)
   {
     return F(0, 0) * (F(1, 1) * F(2, 2) - F(1, 2) * F(2, 1)) +
            F(0, 1) * (F(1, 2) * F(2, 0) - F(1, 0) * F(2, 2)) +

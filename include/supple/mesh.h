@@ -31,7 +31,8 @@ namespace Supple
    * A box of cubes, each cut into six tetrahedra which share its diagonal from corner 000 to corner
    * 111 (Kuhn 1960). Vertices and cubes are numbered with x fastest, then y, then z.
    */
-  SerialMesh box_mesh(const MeshParameters &parameters);
+  SerialMesh
+  box_mesh(const MeshParameters &parameters);
 
 
   /** The mesh of the body at rest, each cell on one process. */
@@ -54,13 +55,16 @@ namespace Supple
     std::map<unsigned int, unsigned int> boundaries; ///< boundary id -> number of its faces
 
     /** Length of the bounding box's diagonal [m]. */
-    double diameter() const;
+    double
+    diameter() const;
 
     /** "[0, 4] x [0, 12] x [0, 4]" */
-    std::string extent() const;
+    std::string
+    extent() const;
 
   private:
-    void measure(const SerialMesh &mesh);
+    void
+    measure(const SerialMesh &mesh);
   };
 } // namespace Supple
 

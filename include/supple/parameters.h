@@ -20,7 +20,8 @@ namespace Supple
     dealii::Point<3> size{1., 1., 1.};
     std::array<unsigned int, 3> cubes{{4, 4, 4}};
 
-    void declare(dealii::ParameterHandler &prm);
+    void
+    declare(dealii::ParameterHandler &prm);
   };
 
 
@@ -40,13 +41,16 @@ namespace Supple
     double density      = 1000.;
     bool lumped         = false;
 
-    void declare(dealii::ParameterHandler &prm);
+    void
+    declare(dealii::ParameterHandler &prm);
 
     /** Lame's first parameter [Pa], from whichever constants are given. */
-    double lame_lambda() const;
+    double
+    lame_lambda() const;
 
     /** Shear modulus [Pa]. */
-    double lame_mu() const;
+    double
+    lame_mu() const;
   };
 
 
@@ -54,7 +58,8 @@ namespace Supple
   {
     RotationMethod rotation = RotationMethod::polar;
 
-    void declare(dealii::ParameterHandler &prm);
+    void
+    declare(dealii::ParameterHandler &prm);
   };
 
 
@@ -65,9 +70,11 @@ namespace Supple
     double stiffness_factor = 0.; ///< [s]
     double viscous          = 0.; ///< [N s/m] at each node
 
-    void declare(dealii::ParameterHandler &prm);
+    void
+    declare(dealii::ParameterHandler &prm);
 
-    bool any() const;
+    bool
+    any() const;
   };
 
 
@@ -77,7 +84,8 @@ namespace Supple
     std::string clamped_region;
     std::array<std::vector<unsigned int>, 3> sliding_boundaries; ///< held along x, along y, along z
 
-    void declare(dealii::ParameterHandler &prm);
+    void
+    declare(dealii::ParameterHandler &prm);
   };
 
 
@@ -86,7 +94,8 @@ namespace Supple
     dealii::Tensor<1, 3> gravity;
     std::string body_force = "0; 0; 0";
 
-    void declare(dealii::ParameterHandler &prm);
+    void
+    declare(dealii::ParameterHandler &prm);
   };
 
 
@@ -95,7 +104,8 @@ namespace Supple
     std::string displacement = "0; 0; 0";
     std::string velocity     = "0; 0; 0";
 
-    void declare(dealii::ParameterHandler &prm);
+    void
+    declare(dealii::ParameterHandler &prm);
   };
 
 
@@ -113,7 +123,8 @@ namespace Supple
     double newton_tolerance   = 1e-8;
     unsigned int newton_limit = 100;
 
-    void declare(dealii::ParameterHandler &prm);
+    void
+    declare(dealii::ParameterHandler &prm);
   };
 
 
@@ -132,7 +143,8 @@ namespace Supple
     double tolerance             = 1e-8;
     unsigned int iteration_limit = 5000;
 
-    void declare(dealii::ParameterHandler &prm);
+    void
+    declare(dealii::ParameterHandler &prm);
   };
 
 
@@ -155,7 +167,8 @@ namespace Supple
     double interval            = 0.1;
     bool history               = true;
 
-    void declare(dealii::ParameterHandler &prm);
+    void
+    declare(dealii::ParameterHandler &prm);
   };
 
 
@@ -165,7 +178,8 @@ namespace Supple
     std::string boundaries;
     std::string regions;
 
-    void declare(dealii::ParameterHandler &prm);
+    void
+    declare(dealii::ParameterHandler &prm);
   };
 
 
@@ -193,21 +207,27 @@ namespace Supple
      * Reads a scene file and applies @p overrides ("Section/Entry=value") on top.
      * @throws InputError with file, line, entry, what was found and what would be right.
      */
-    static Parameters read(const std::string &file, const std::vector<std::string> &overrides = {});
+    static Parameters
+    read(const std::string &file, const std::vector<std::string> &overrides = {});
 
     /** Where an entry ("Section/Entry") got its value, and the value: to begin a message with. */
-    std::string origin(const std::string &entry) const;
+    std::string
+    origin(const std::string &entry) const;
 
     /** Every parameter as used, in a form that read() takes. */
-    void print(std::ostream &out) const;
+    void
+    print(std::ostream &out) const;
 
     /** Every entry with its default, unit, range and meaning; @p format is "prm" or "json". */
-    static void print_reference(std::ostream &out, const std::string &format);
+    static void
+    print_reference(std::ostream &out, const std::string &format);
 
   private:
-    void declare(dealii::ParameterHandler &prm);
+    void
+    declare(dealii::ParameterHandler &prm);
 
-    void check() const;
+    void
+    check() const;
 
     std::map<std::string, std::string> places; ///< entry -> file:line or "--set"
     std::map<std::string, std::string> values; ///< entry -> value as text
@@ -216,8 +236,8 @@ namespace Supple
 
 
   /** A run of "name: text; name: text" taken apart, in its order. @throws InputError */
-  std::vector<std::pair<std::string, std::string>> named_list(const std::string &text,
-                                                              const std::string &origin);
+  std::vector<std::pair<std::string, std::string>>
+  named_list(const std::string &text, const std::string &origin);
 } // namespace Supple
 
 #endif

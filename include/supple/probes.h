@@ -15,19 +15,23 @@ namespace Supple
     /** @throws InputError if a probe is written wrongly or selects nothing */
     Probes(const Body &body, const Parameters &parameters);
 
-    bool empty() const
+    bool
+    empty() const
     {
       return probes.empty();
     }
 
-    std::vector<std::string> column_names() const;
+    std::vector<std::string>
+    column_names() const;
 
     /** Displacement [m], velocity [m/s] and reaction [N] of each probe, nine numbers each. */
-    std::vector<double> values(const State &state, const Vector &reactions) const;
+    std::vector<double>
+    values(const State &state, const Vector &reactions) const;
 
     /** A line for each probe: which vertex was taken and how far it is, or how many vertices it
      * has. */
-    std::vector<std::string> descriptions() const;
+    std::vector<std::string>
+    descriptions() const;
 
   private:
     struct Probe
@@ -38,7 +42,8 @@ namespace Supple
       unsigned int n_nodes;            ///< on all processes
     };
 
-    void add_point(const std::string &name, const std::string &text, const std::string &origin);
+    void
+    add_point(const std::string &name, const std::string &text, const std::string &origin);
 
     void
     add_nodes(const std::string &name, const std::string &what, const std::vector<bool> &nodes);

@@ -14,10 +14,12 @@ namespace Supple
     Progress(unsigned int n_steps, bool wanted);
 
     /** Called after each step; writes a few times a second. */
-    void update(unsigned int step);
+    void
+    update(unsigned int step);
 
     /** Takes the line away. */
-    void clear();
+    void
+    clear();
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -31,7 +33,8 @@ namespace Supple
 
 
   /** "1 h 02 min", "3 min 20 s" or "4.2 s" */
-  std::string readable_duration(double seconds);
+  std::string
+  readable_duration(double seconds);
 } // namespace Supple
 
 #endif

@@ -9,8 +9,9 @@ namespace Supple
    * How the rotation R of a cell is taken from its deformation gradient F.
    *
    * - none: R = I, linear elasticity.
-   * - gram_schmidt: the columns of F made orthonormal one after the other. Quick, but it depends on how the
-   *   body at rest lies to the axes, and the force is not the gradient of an energy: it has a net moment.
+   * - gram_schmidt: the columns of F made orthonormal one after the other. Quick, but it depends on
+   * how the body at rest lies to the axes, and the force is not the gradient of an energy: it has a
+   * net moment.
    * - polar: the rotation nearest to F, that is the one which maximizes trace(R^T F). For det F > 0
    * it is the rotation of the polar decomposition F = R U.
    */
@@ -27,12 +28,14 @@ namespace Supple
    * the smallest singular value chosen so that det R = 1. The identity where F is zero or not
    * finite.
    */
-  Matrix3<double> nearest_rotation(const Matrix3<double> &F);
+  Matrix3<double>
+  nearest_rotation(const Matrix3<double> &F);
 
 
   /** |R^T R - I|^2, zero for a rotation or reflection, not-a-number if R has one. */
   template <class Number>
-  Number orthogonality_defect(const Matrix3<Number> &R)
+  Number
+  orthogonality_defect(const Matrix3<Number> &R)
   {
     Matrix3<Number> S = transposed_product(R, R);
     for (unsigned int i = 0; i < 3; ++i)
@@ -51,7 +54,8 @@ namespace Supple
    * look at orthogonality_defect() of the result.
    */
   template <class Number>
-  Matrix3<Number> closed_form_rotation(const Matrix3<Number> &F)
+  Matrix3<Number>
+  closed_form_rotation(const Matrix3<Number> &F)
   {
     using std::sqrt;
     using std::experimental::all_of;
@@ -88,7 +92,8 @@ namespace Supple
   /** The columns of F made orthonormal in their order; the third is the cross product of the first
    * two. */
   template <class Number>
-  Matrix3<Number> gram_schmidt_rotation(const Matrix3<Number> &F)
+  Matrix3<Number>
+  gram_schmidt_rotation(const Matrix3<Number> &F)
   {
     using std::sqrt;
     using std::experimental::sqrt;
@@ -119,11 +124,13 @@ namespace Supple
 
 
   /** Replaces those lanes of @p R which are no rotation by nearest_rotation(). */
-  void repair_rotations(const Matrix3<Pack> &F, Matrix3<Pack> &R);
+  void
+  repair_rotations(const Matrix3<Pack> &F, Matrix3<Pack> &R);
 
 
   /** A proper rotation in every lane, for every F. */
-  inline Matrix3<Pack> rotation(const RotationMethod method, const Matrix3<Pack> &F)
+  inline Matrix3<Pack>
+  rotation(const RotationMethod method, const Matrix3<Pack> &F)
   {
     Matrix3<Pack> R;
     switch (method)

@@ -30,29 +30,39 @@ namespace Supple
                MPI_Comm communicator);
 
     /** @throws ComputationError with the step and the time, after all files are complete */
-    void run();
+    void
+    run();
 
     /** What would be run, as a table. */
-    void print_description() const;
+    void
+    print_description() const;
 
   private:
-    void create_initial_state();
+    void
+    create_initial_state();
 
-    void open_output();
+    void
+    open_output();
 
-    void time_loop();
+    void
+    time_loop();
 
-    void advance();
+    void
+    advance();
 
-    void record(const StepReport &report);
+    void
+    record(const StepReport &report);
 
     /** Last frame and summary. */
-    void finish(const std::string &status);
+    void
+    finish(const std::string &status);
 
-    double seconds_since_start() const;
+    double
+    seconds_since_start() const;
 
     /** [s]; the load factor of a static problem */
-    double time_of(unsigned int step) const;
+    double
+    time_of(unsigned int step) const;
 
     const Parameters parameters;
     const std::string folder;

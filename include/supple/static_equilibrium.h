@@ -19,20 +19,25 @@ namespace Supple
   public:
     StaticEquilibrium(const Model &model);
 
-    StepReport advance(State &state, double load_factor, bool observed) override;
+    StepReport
+    advance(State &state, double load_factor, bool observed) override;
 
-    std::string name() const override;
+    std::string
+    name() const override;
 
   private:
     /** s f - f_int(u), with the rotations updated to u; the held entries are the reactions with a
      * minus sign. */
-    void update_residual(const Vector &displacement, double load_factor);
+    void
+    update_residual(const Vector &displacement, double load_factor);
 
     /** W(u) - s f.u [J], with the rotations of the last update. */
-    double energy(const Vector &displacement, double load_factor) const;
+    double
+    energy(const Vector &displacement, double load_factor) const;
 
     /** Adds as much of the correction as lowers the energy. */
-    void add_correction(Vector &displacement, double load_factor);
+    void
+    add_correction(Vector &displacement, double load_factor);
 
     bool prepared           = false;
     double last_load_factor = 0.;

@@ -23,7 +23,8 @@ namespace Supple
     bool observed         = false; ///< whether energies were measured
     Measurement last;
 
-    std::string to_json(const Model &model) const;
+    std::string
+    to_json(const Model &model) const;
   };
 } // namespace Supple
 

@@ -15,7 +15,8 @@ namespace Supple
     CsvFile(const std::string &file, const std::vector<std::string> &column_names);
 
     /** @throws WriteError if the disk is full */
-    void write_row(const std::vector<double> &values);
+    void
+    write_row(const std::vector<double> &values);
 
   private:
     const std::string file;
@@ -25,7 +26,8 @@ namespace Supple
 
   /** Writes a text file aside and renames it, so that it is there as a whole or not at all. @throws
    * WriteError */
-  void write_whole_file(const std::string &file, const std::string &content);
+  void
+  write_whole_file(const std::string &file, const std::string &content);
 } // namespace Supple
 
 #endif

@@ -71,39 +71,50 @@ namespace Supple
                bool lumped_mass);
 
     /** Finds the place of each cell's blocks in matrices with this pattern. */
-    void connect(const SymmetricPattern &pattern);
+    void
+    connect(const SymmetricPattern &pattern);
 
     /** R of every cell from the displacement; kept until called again. Before the first call R = I.
      */
-    void update_rotations(RotationMethod method, const double *displacement);
+    void
+    update_rotations(RotationMethod method, const double *displacement);
 
     /** f += sum R K (R^T x - X), with the rotations that are kept. */
-    void add_internal_force(const double *displacement, double *force) const;
+    void
+    add_internal_force(const double *displacement, double *force) const;
 
     /** y += K' w, with K' = sum R K R^T. */
-    void add_stiffness_product(const double *w, double *y) const;
+    void
+    add_stiffness_product(const double *w, double *y) const;
 
     /** y += M w on all nodes, those held included. */
-    void add_mass_product(const double *w, double *y) const;
+    void
+    add_mass_product(const double *w, double *y) const;
 
     /** A += mass_factor M + stiffness_factor K'. */
-    void add_tangent(double mass_factor, double stiffness_factor, SymmetricBlockMatrix &A) const;
+    void
+    add_tangent(double mass_factor, double stiffness_factor, SymmetricBlockMatrix &A) const;
 
     /** M += the mass matrix. */
-    void add_mass(SymmetricScalarMatrix &M) const;
+    void
+    add_mass(SymmetricScalarMatrix &M) const;
 
     /** Mass [kg] of each local node, volume shared evenly: the row sums of the mass matrix. */
-    void add_nodal_mass(double *mass) const;
+    void
+    add_nodal_mass(double *mass) const;
 
     /** f += integrals of shape functions times a linear force per volume [N/m^3], given at the
      * nodes. */
-    void add_load(const double *force_density, double *force) const;
+    void
+    add_load(const double *force_density, double *force) const;
 
     /** @p velocity may be null: then nothing moves. */
-    CellSums sums(const double *displacement, const double *velocity) const;
+    CellSums
+    sums(const double *displacement, const double *velocity) const;
 
     /** For each cell in the order given to the constructor, owned or not. */
-    std::vector<CellState> states(const double *displacement) const;
+    std::vector<CellState>
+    states(const double *displacement) const;
 
   private:
     struct Batch
@@ -124,22 +135,30 @@ namespace Supple
 
     using NodalPack = std::array<std::array<Pack, 3>, 4>;
 
-    static NodalPack gather(const Batch &batch, const double *nodal);
+    static NodalPack
+    gather(const Batch &batch, const double *nodal);
 
-    static void scatter(const Batch &batch, const NodalPack &values, double *nodal);
+    static void
+    scatter(const Batch &batch, const NodalPack &values, double *nodal);
 
-    static Matrix3<Pack> gradient(const Batch &batch, const NodalPack &values);
+    static Matrix3<Pack>
+    gradient(const Batch &batch, const NodalPack &values);
 
-    static Matrix3<Pack> strain(const Matrix3<Pack> &R, const Matrix3<Pack> &F);
+    static Matrix3<Pack>
+    strain(const Matrix3<Pack> &R, const Matrix3<Pack> &F);
 
-    static Matrix3<Pack> stress(const Batch &batch, const Matrix3<Pack> &strain);
+    static Matrix3<Pack>
+    stress(const Batch &batch, const Matrix3<Pack> &strain);
 
-    Matrix3<Pack> deformation_gradient(const Batch &batch, const double *displacement) const;
+    Matrix3<Pack>
+    deformation_gradient(const Batch &batch, const double *displacement) const;
 
-    void add_stress_divergence(std::size_t batch, const Matrix3<Pack> &strain, double *force) const;
+    void
+    add_stress_divergence(std::size_t batch, const Matrix3<Pack> &strain, double *force) const;
 
     /** Entries (a, a) and (a, b) of a cell's mass matrix. */
-    std::pair<Pack, Pack> mass_entries(const Batch &batch) const;
+    std::pair<Pack, Pack>
+    mass_entries(const Batch &batch) const;
 
     const std::size_t n_cells;
     const bool lumped_mass;

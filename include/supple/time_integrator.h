@@ -47,7 +47,8 @@ namespace Supple
     virtual ~TimeIntegrator() = default;
 
     /** Backward Euler, or the steps of a static problem. */
-    static std::unique_ptr<TimeIntegrator> create(const Model &model, const Vector &displacement);
+    static std::unique_ptr<TimeIntegrator>
+    create(const Model &model, const Vector &displacement);
 
     /**
      * One step.
@@ -57,13 +58,16 @@ namespace Supple
      * @param observed whether anybody asks for energies and reactions
      * @throws ComputationError
      */
-    virtual StepReport advance(State &state, double time, bool observed) = 0;
+    virtual StepReport
+    advance(State &state, double time, bool observed) = 0;
 
-    virtual std::string name() const = 0;
+    virtual std::string
+    name() const = 0;
 
     /** Forces of the clamps on the body at the end of an observed step [N]; zero where it is free.
      */
-    const Vector &reactions() const
+    const Vector &
+    reactions() const
     {
       return reaction;
     }
@@ -72,7 +76,8 @@ namespace Supple
     TimeIntegrator(const Model &model);
 
     /** Keeps the held entries of a force and sets all others to zero. */
-    void set_reactions(const Vector &force);
+    void
+    set_reactions(const Vector &force);
 
     const Model model;
 

@@ -32,10 +32,12 @@ namespace Supple
         vector.zero_out_ghost_values();
     }
 
-    GhostValues(const GhostValues &)            = delete;
-    GhostValues &operator=(const GhostValues &) = delete;
+    GhostValues(const GhostValues &) = delete;
+    GhostValues &
+    operator=(const GhostValues &) = delete;
 
-    const double *data() const
+    const double *
+    data() const
     {
       return vector.begin();
     }
@@ -48,7 +50,8 @@ namespace Supple
   /** Calls @p add(double *) on a vector set to zero, whose ghost part may be written but means
    * nothing. */
   template <class Add>
-  void sum_into(Vector &vector, const Add &add)
+  void
+  sum_into(Vector &vector, const Add &add)
   {
     vector = 0.;
     add(vector.begin());

@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <set>
 
 namespace
@@ -25,7 +26,8 @@ namespace
   };
 
 
-  Table read_csv(const std::string &file)
+  Table
+  read_csv(const std::string &file)
   {
     Table table;
     std::ifstream stream(file);
@@ -39,28 +41,44 @@ namespace
   }
 
 
-  void print(const std::string &title, const Table &table)
+  /** The components of a vector are compared by the size of the vector. */
+  std::string
+  without_direction(const std::string &name)
   {
+    const bool component = name.size() > 1 && name.find_last_of("xyz") == name.size() - 1;
+    return component ? name.substr(0, name.size() - 1) : name;
+  }
+
+
+  void
+  print(const std::string &title, const Table &table)
+  {
+    std::map<std::string, double> largest;
+    for (const auto &row : table.rows)
+      for (std::size_t c = 0; c < row.size(); ++c)
+        {
+          double &size = largest[without_direction(table.names[c])];
+          size         = std::max(size, std::abs(row[c]));
+        }
+
     const std::set<std::string> not_physical = {"step",
                                                 "newton_iterations",
                                                 "linear_iterations",
                                                 "seconds"};
-    std::cout << title << ": " << table.rows.size() << " rows\n";
-    std::set<std::size_t> chosen = {0, 1, 2, 5, 10, 20, 50, table.rows.size() - 1};
+    const std::set<std::size_t> chosen       = {0, 1, 2, 5, 10, 20, 50, table.rows.size() - 1};
+    std::printf("%s: %zu rows\n", title.c_str(), table.rows.size());
     for (std::size_t c = 0; c < table.names.size(); ++c)
       {
         if (not_physical.count(table.names[c]) > 0)
           continue;
-        double largest = 0.;
-        for (const auto &row : table.rows)
-          largest = std::max(largest, std::abs(row[c]));
-        std::printf("%s, largest %.9e:", table.names[c].c_str(), largest);
+        const double size = largest[without_direction(table.names[c])];
+        std::printf("%s, largest %.9e:", table.names[c].c_str(), size);
         for (const std::size_t r : chosen)
           if (r < table.rows.size())
-            std::printf(" %.10f", largest > 0. ? table.rows[r][c] / largest : 0.);
+            std::printf(" %.10f", size > 0. ? table.rows[r][c] / size : 0.);
         std::printf("\n");
-        std::fflush(stdout);
       }
+    std::fflush(stdout);
   }
 } // namespace
 
