@@ -71,7 +71,8 @@ namespace Supple
       inverse_mass.push_back(1. / diagonal[node]);
 
     model.body.update_rotations(displacement, model.effort);
-    set_callbacks();
+    set_equation_callbacks();
+    set_solver_callbacks();
   }
 
 
@@ -112,7 +113,7 @@ namespace Supple
 
 
   void
-  BackwardEuler::set_callbacks()
+  BackwardEuler::set_equation_callbacks()
   {
     ode.implicit_function = [this](const double time, const State &y, State &f) {
       return guarded([&] {
@@ -139,6 +140,16 @@ namespace Supple
       });
     };
 
+    ode.output_step = [this](const double, const State &, const unsigned int) {
+      throw_what_failed();
+    };
+    ode.custom_setup = [this](void *memory) { set_options(memory); };
+  }
+
+
+  void
+  BackwardEuler::set_solver_callbacks()
+  {
     // ARKode wants it to be there, but the linear systems are solved without it.
     ode.jacobian_times_vector =
       [](const State &, State &, const double, const State &, const State &) { return -1; };
@@ -175,11 +186,6 @@ namespace Supple
                                          const double) {
       return guarded([&] { elimination.vmult(x, b); });
     };
-
-    ode.output_step = [this](const double, const State &, const unsigned int) {
-      throw_what_failed();
-    };
-    ode.custom_setup = [this](void *memory) { set_options(memory); };
   }
 
 
@@ -278,6 +284,7 @@ namespace Supple
     catch (...)
       {
         state = previous;
+        throw_what_failed();
         throw;
       }
     report.linear_iterations = linear_iterations;

@@ -78,6 +78,7 @@ namespace Supple
         cells.push_back(tetrahedron);
         cell_nodes.push_back(tetrahedron.nodes);
         active_cell.push_back(cell->active_cell_index());
+        cell_material.push_back(cell->material_id());
       }
     tetrahedra = std::make_unique<Tetrahedra>(positions, cells, material.lumped);
   }

@@ -118,38 +118,12 @@ namespace Supple
     flags.compression_level = DataOutBase::VtkFlags::best_speed;
     data.set_flags(flags);
 
-    const std::vector<DataComponentInterpretation::DataComponentInterpretation> vector_valued(
-      3, DataComponentInterpretation::component_is_part_of_vector);
-    const char *const names[] = {"displacement", "velocity"};
+    // DataOut works with whole vectors: ghost values stay valid until the patches are built.
     for (unsigned int b = 0; b < state.n_blocks(); ++b)
-      {
-        state.block(b).update_ghost_values();
-        data.add_data_vector(state.block(b),
-                             std::vector<std::string>(3, names[b]),
-                             DataOut<3>::type_dof_data,
-                             vector_valued);
-      }
-
-    const std::vector<CellState> states = body.tetrahedra->states(state.block(0).begin());
-    const unsigned int n_active         = body.mesh.triangulation.n_active_cells();
-    dealii::Vector<float> volume_ratio(n_active), von_mises(n_active), angle(n_active),
-      material(n_active);
-    for (std::size_t c = 0; c < states.size(); ++c)
-      {
-        const unsigned int cell = body.active_cell[c];
-        volume_ratio[cell]      = states[c].volume_ratio;
-        von_mises[cell]         = states[c].von_mises_stress;
-        angle[cell]             = states[c].rotation_angle;
-      }
-    for (const auto &cell : body.mesh.triangulation.active_cell_iterators())
-      material[cell->active_cell_index()] = cell->material_id();
-    data.add_data_vector(volume_ratio, "volume_ratio", DataOut<3>::type_cell_data);
-    data.add_data_vector(von_mises, "von_mises_stress", DataOut<3>::type_cell_data);
-    data.add_data_vector(angle, "rotation_angle", DataOut<3>::type_cell_data);
-    data.add_data_vector(material, "material", DataOut<3>::type_cell_data);
-
-    // The deformed body: the mapping wants positions, not displacements.
-    Vector deformed;
+      state.block(b).update_ghost_values();
+    std::array<dealii::Vector<float>, 4> cell_fields; // data refers to them
+    add_fields(state, data, cell_fields);
+    Vector deformed; // the mapping wants positions, not displacements
     body.initialize(deformed);
     for (unsigned int node = 0; node < body.n_owned; ++node)
       for (unsigned int i = 0; i < 3; ++i)
@@ -161,20 +135,60 @@ namespace Supple
     for (unsigned int b = 0; b < state.n_blocks(); ++b)
       state.block(b).zero_out_ghost_values();
 
+    write_pieces(data, name);
+  }
+
+
+  void
+  Frames::add_fields(const State &state,
+                     DataOut<3> &data,
+                     std::array<dealii::Vector<float>, 4> &cell_fields) const
+  {
+    const std::vector<DataComponentInterpretation::DataComponentInterpretation> vector_valued(
+      3, DataComponentInterpretation::component_is_part_of_vector);
+    const char *const names[] = {"displacement", "velocity"};
+    for (unsigned int b = 0; b < state.n_blocks(); ++b)
+      data.add_data_vector(state.block(b),
+                           std::vector<std::string>(3, names[b]),
+                           DataOut<3>::type_dof_data,
+                           vector_valued);
+
+    const std::vector<CellState> states = body.tetrahedra->states(state.block(0).begin());
+    for (auto &field : cell_fields)
+      field.reinit(body.mesh.triangulation.n_active_cells());
+    for (std::size_t c = 0; c < states.size(); ++c)
+      {
+        const unsigned int cell = body.active_cell[c];
+        cell_fields[0][cell]    = states[c].volume_ratio;
+        cell_fields[1][cell]    = states[c].von_mises_stress;
+        cell_fields[2][cell]    = states[c].rotation_angle;
+        cell_fields[3][cell]    = body.cell_material[c];
+      }
+    const char *const cell_names[] = {"volume_ratio",
+                                      "von_mises_stress",
+                                      "rotation_angle",
+                                      "material"};
+    for (unsigned int f = 0; f < cell_fields.size(); ++f)
+      data.add_data_vector(cell_fields[f], cell_names[f], DataOut<3>::type_cell_data);
+  }
+
+
+  /** A file for each process, and on several a record that names them all. */
+  void
+  Frames::write_pieces(const DataOut<3> &data, const std::string &name) const
+  {
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(body.mesh.communicator);
     const unsigned int rank    = Utilities::MPI::this_mpi_process(body.mesh.communicator);
-    const auto piece           = [&](const unsigned int r) {
-      return n_ranks == 1 ? name + ".vtu" : name + "." + std::to_string(r) + ".vtu";
-    };
+    std::vector<std::string> pieces;
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      pieces.push_back(n_ranks == 1 ? name + ".vtu" : name + "." + std::to_string(r) + ".vtu");
+
     std::ostringstream content;
     data.write_vtu(content);
-    write_whole_file(folder + "/solution/" + piece(rank), content.str());
+    write_whole_file(folder + "/solution/" + pieces[rank], content.str());
     if (n_ranks > 1)
       {
         MPI_Barrier(body.mesh.communicator); // the record names no file that is not there
-        std::vector<std::string> pieces;
-        for (unsigned int r = 0; r < n_ranks; ++r)
-          pieces.push_back(piece(r));
         std::ostringstream record;
         data.write_pvtu_record(record, pieces);
         if (rank == 0)

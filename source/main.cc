@@ -9,6 +9,7 @@
 #include <supple/error.h>
 #include <supple/simulation.h>
 
+#include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
 #include <iostream>
@@ -57,7 +58,10 @@ namespace
 int
 main(int argc, char **argv)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  // Only the program's name: libraries behind deal.II would take our options for theirs.
+  int n_names = 1;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, argv, 1);
+  dealii::deal_II_exceptions::disable_abort_on_exception(); // whatever fails ends with a message
 
   const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   const auto fail = [root](const std::exception &exception, const int exit_status) {

@@ -1,6 +1,7 @@
 #include <supple/parameters.h>
 
 #include <supple/error.h>
+#include <supple/patterns.h>
 
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
@@ -17,206 +18,6 @@ namespace Supple
 
   namespace
   {
-    /** A number strictly between two bounds; deal.II's Double includes its bounds. */
-    class Between : public Patterns::PatternBase
-    {
-    public:
-      Between(const double lower, const double upper)
-        : lower(lower)
-        , upper(upper)
-      {
-      }
-
-      bool
-      match(const std::string &text) const override
-      {
-        if (!Patterns::Double().match(text))
-          return false;
-        const double value = std::stod(text);
-        return value > lower && value < upper && std::isfinite(value);
-      }
-
-      std::string
-      description(const OutputStyle = Machine) const override
-      {
-        std::ostringstream text;
-        text << "a number greater than " << lower;
-        if (std::isfinite(upper))
-          text << " and less than " << upper;
-        return text.str();
-      }
-
-      std::unique_ptr<Patterns::PatternBase>
-      clone() const override
-      {
-        return std::make_unique<Between>(*this);
-      }
-
-    private:
-      const double lower, upper;
-    };
-
-
-    /** A number that may equal its lower bound. */
-    class AtLeast : public Patterns::PatternBase
-    {
-    public:
-      AtLeast(const double lower, const bool integer = false)
-        : lower(lower)
-        , integer(integer)
-      {
-      }
-
-      bool
-      match(const std::string &text) const override
-      {
-        if (integer ? !Patterns::Integer().match(text) : !Patterns::Double().match(text))
-          return false;
-        const double value = std::stod(text);
-        return value >= lower && std::isfinite(value);
-      }
-
-      std::string
-      description(const OutputStyle = Machine) const override
-      {
-        std::ostringstream text;
-        text << (integer ? "a whole number, " : "a number, ") << lower << " or greater";
-        return text.str();
-      }
-
-      std::unique_ptr<Patterns::PatternBase>
-      clone() const override
-      {
-        return std::make_unique<AtLeast>(*this);
-      }
-
-    private:
-      const double lower;
-      const bool integer;
-    };
-
-
-    /** Any finite number. */
-    class Finite : public Patterns::PatternBase
-    {
-    public:
-      bool
-      match(const std::string &text) const override
-      {
-        return Patterns::Double().match(text) && std::isfinite(std::stod(text));
-      }
-
-      std::string
-      description(const OutputStyle = Machine) const override
-      {
-        return "a number";
-      }
-
-      std::unique_ptr<Patterns::PatternBase>
-      clone() const override
-      {
-        return std::make_unique<Finite>(*this);
-      }
-    };
-
-
-    /** A list of so many values of one kind, set apart by commas. */
-    class Triple : public Patterns::List
-    {
-    public:
-      Triple(const Patterns::PatternBase &pattern)
-        : Patterns::List(pattern, 3, 3)
-      {
-      }
-
-      std::string
-      description(const OutputStyle style = Machine) const override
-      {
-        return "three values set apart by commas, each " + get_base_pattern().description(style);
-      }
-
-      std::unique_ptr<Patterns::PatternBase>
-      clone() const override
-      {
-        return std::make_unique<Triple>(get_base_pattern());
-      }
-    };
-
-
-    class BoundaryIds : public Patterns::List
-    {
-    public:
-      BoundaryIds()
-        : Patterns::List(Patterns::Integer(0), 0, Patterns::List::max_int_value)
-      {
-      }
-
-      std::string
-      description(const OutputStyle = Machine) const override
-      {
-        return "boundary ids set apart by commas, or nothing";
-      }
-
-      std::unique_ptr<Patterns::PatternBase>
-      clone() const override
-      {
-        return std::make_unique<BoundaryIds>();
-      }
-    };
-
-
-    class OneOf : public Patterns::Selection
-    {
-    public:
-      OneOf(const std::string &choices)
-        : Patterns::Selection(choices)
-        , choices(choices)
-      {
-      }
-
-      std::string
-      description(const OutputStyle = Machine) const override
-      {
-        return "one of " + std::regex_replace(choices, std::regex("\\|"), ", ");
-      }
-
-      std::unique_ptr<Patterns::PatternBase>
-      clone() const override
-      {
-        return std::make_unique<OneOf>(choices);
-      }
-
-    private:
-      const std::string choices;
-    };
-
-
-    class Expressions : public Patterns::Anything
-    {
-    public:
-      Expressions(const unsigned int n)
-        : n(n)
-      {
-      }
-
-      std::string
-      description(const OutputStyle = Machine) const override
-      {
-        return n == 1 ? "an expression of x, y, z"
-                      : "three expressions of x, y, z, t set apart by semicolons";
-      }
-
-      std::unique_ptr<Patterns::PatternBase>
-      clone() const override
-      {
-        return std::make_unique<Expressions>(n);
-      }
-
-    private:
-      const unsigned int n;
-    };
-
-
     const double infinity = std::numeric_limits<double>::infinity();
 
     std::string
@@ -260,7 +61,7 @@ namespace Supple
           if (value == variable)
             preset = name;
         }
-      const OneOf pattern(names);
+      const Range pattern = Range::one_of(names);
       prm.declare_entry(entry, preset, pattern, full_documentation(meaning, "none", pattern));
       prm.add_action(entry, [&variable, choices](const std::string &chosen) {
         for (const auto &[name, value] : choices)
@@ -279,19 +80,19 @@ namespace Supple
         "Box origin",
         origin,
         "m",
-        Triple(Finite()),
+        RangeList::three(Range::finite()),
         "Corner of the box with the smallest coordinates.");
     add(prm,
         "Box size",
         size,
         "m",
-        Triple(Between(0, infinity)),
+        RangeList::three(Range::between(0, infinity)),
         "Lengths of the box along x, y and z.");
     add(prm,
         "Box cubes",
         cubes,
         "none",
-        Triple(AtLeast(1, true)),
+        RangeList::three(Range::whole_number(1)),
         "Number of cubes along x, y and z; each is cut into six tetrahedra along its diagonal from "
         "the smallest "
         "to the largest coordinates. The faces of the box have the boundary ids 0 (smallest x), 1 "
@@ -311,25 +112,25 @@ namespace Supple
                {{"Young and Poisson", Constants::young_poisson}, {"Lame", Constants::lame}},
                "Which pair of constants is used: Young modulus and Poisson ratio, or Lame lambda "
                "and Lame mu.");
-    add(prm, "Young modulus", young, "Pa", Between(0, infinity), "Young's modulus E.");
-    add(prm, "Poisson ratio", poisson, "none", Between(-1, 0.5), "Poisson's ratio nu.");
+    add(prm, "Young modulus", young, "Pa", Range::between(0, infinity), "Young's modulus E.");
+    add(prm, "Poisson ratio", poisson, "none", Range::between(-1, 0.5), "Poisson's ratio nu.");
     add(prm,
         "Lame lambda",
         lambda,
         "Pa",
-        Finite(),
+        Range::finite(),
         "Lame's first parameter; 3 lambda + 2 mu must be positive.");
     add(prm,
         "Lame mu",
         mu,
         "Pa",
-        Between(0, infinity),
+        Range::between(0, infinity),
         "Lame's second parameter, the shear modulus.");
     add(prm,
         "Density",
         density,
         "kg/m^3",
-        Between(0, infinity),
+        Range::between(0, infinity),
         "Mass per volume of the body at rest.");
     add_choice(prm,
                "Mass",
@@ -363,19 +164,23 @@ namespace Supple
   DampingParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Damping");
-    add(
-      prm, "Mass factor", mass_factor, "1/s", AtLeast(0), "Rayleigh damping: a in D = a M + b K'.");
+    add(prm,
+        "Mass factor",
+        mass_factor,
+        "1/s",
+        Range::at_least(0),
+        "Rayleigh damping: a in D = a M + b K'.");
     add(prm,
         "Stiffness factor",
         stiffness_factor,
         "s",
-        AtLeast(0),
+        Range::at_least(0),
         "Rayleigh damping: b in D = a M + b K'.");
     add(prm,
         "Viscous",
         viscous,
         "N s/m",
-        AtLeast(0),
+        Range::at_least(0),
         "Damping coefficient of each vertex against a resting world.");
     prm.leave_subsection();
   }
@@ -396,13 +201,13 @@ namespace Supple
         "Clamped boundaries",
         clamped_boundaries,
         "none",
-        BoundaryIds(),
+        RangeList::boundary_ids(),
         "Boundaries whose vertices keep their place.");
     add(prm,
         "Clamped region",
         clamped_region,
         "none",
-        Expressions(1),
+        Range::expressions(1),
         "Vertices at which this expression, such as y > 11.9, is true (not zero) keep their place. "
         "Empty: none.");
     for (unsigned int i = 0; i < 3; ++i)
@@ -410,7 +215,7 @@ namespace Supple
           std::string("Boundaries held along ") + "xyz"[i],
           sliding_boundaries[i],
           "none",
-          BoundaryIds(),
+          RangeList::boundary_ids(),
           std::string("Boundaries whose vertices do not move along ") + "xyz"[i] +
             " but may slide otherwise: planes of symmetry.");
     prm.leave_subsection();
@@ -421,12 +226,17 @@ namespace Supple
   LoadParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Loads");
-    add(prm, "Gravity", gravity, "m/s^2", Triple(Finite()), "Acceleration by gravity.");
+    add(prm,
+        "Gravity",
+        gravity,
+        "m/s^2",
+        RangeList::three(Range::finite()),
+        "Acceleration by gravity.");
     add(prm,
         "Body force",
         body_force,
         "N/m^3",
-        Expressions(3),
+        Range::expressions(3),
         "Force per volume at rest position and time.");
     prm.leave_subsection();
   }
@@ -440,13 +250,13 @@ namespace Supple
         "Displacement",
         displacement,
         "m",
-        Expressions(3),
+        Range::expressions(3),
         "Displacement at time 0; zero where the body is held.");
     add(prm,
         "Velocity",
         velocity,
         "m/s",
-        Expressions(3),
+        Range::expressions(3),
         "Velocity at time 0; zero where the body is held.");
     prm.leave_subsection();
   }
@@ -462,25 +272,25 @@ namespace Supple
                {{"dynamic", Problem::dynamic}, {"static", Problem::stationary}},
                "Motion in time by backward Euler, or equilibrium under the loads at time 1, which "
                "grow in steps.");
-    add(prm, "Step", step, "s", Between(0, infinity), "Time step of a dynamic problem.");
+    add(prm, "Step", step, "s", Range::between(0, infinity), "Time step of a dynamic problem.");
     add(prm,
         "Steps",
         n_steps,
         "none",
-        AtLeast(1, true),
+        Range::whole_number(1),
         "Number of time steps, or of load steps of a static problem.");
     add(prm,
         "Newton tolerance",
         newton_tolerance,
         "none",
-        Between(0, 1),
+        Range::between(0, 1),
         "A static step is done when the forces out of balance are below this fraction of the loads "
         "and reactions.");
     add(prm,
         "Newton iterations",
         newton_limit,
         "none",
-        AtLeast(1, true),
+        Range::whole_number(1),
         "A static step that needs more has failed.");
     prm.leave_subsection();
   }
@@ -508,13 +318,13 @@ namespace Supple
       "Tolerance",
       tolerance,
       "none",
-      Between(0, 1),
+      Range::between(0, 1),
       "Conjugate gradients stop when the residual is below this fraction of the right hand side.");
     add(prm,
         "Iterations",
         iteration_limit,
         "none",
-        AtLeast(1, true),
+        Range::whole_number(1),
         "Conjugate gradients that need more have failed.");
     prm.leave_subsection();
   }
@@ -544,13 +354,13 @@ namespace Supple
         "Motion",
         motion,
         "fraction of the body's diameter",
-        Between(0, infinity),
+        Range::between(0, infinity),
         "Adaptive: a frame is written when some vertex has moved this far since the last one.");
     add(prm,
         "Volume ratio change",
         volume_ratio_change,
         "none",
-        Between(0, infinity),
+        Range::between(0, infinity),
         "Adaptive: a frame is written when the largest or smallest volume ratio passes that of all "
         "earlier frames by "
         "this much, and when the first cell is inverted.");
@@ -558,19 +368,19 @@ namespace Supple
         "Longest interval",
         longest_interval,
         "s",
-        AtLeast(0),
+        Range::at_least(0),
         "Adaptive: longest time without a frame; 0: no limit.");
     add(prm,
         "Every",
         every,
         "steps",
-        AtLeast(1, true),
+        Range::whole_number(1),
         "Frames = every: number of steps from frame to frame.");
     add(prm,
         "Interval",
         interval,
         "s",
-        Between(0, infinity),
+        Range::between(0, infinity),
         "Frames = interval: time from frame to frame.");
     add(prm,
         "History",

@@ -165,15 +165,31 @@ namespace Supple
   }
 
 
-  /** sym(R^T F); the strain is this minus the identity where F is a deformation gradient. */
   Matrix3<Pack>
-  Tetrahedra::strain(const Matrix3<Pack> &R, const Matrix3<Pack> &F)
+  Tetrahedra::rotation_of(const std::size_t b) const
   {
-    Matrix3<Pack> S = transposed_product(R, F);
+    return rotations.empty() ? Matrix3<Pack>::identity() : rotations[b];
+  }
+
+
+  Matrix3<Pack>
+  Tetrahedra::rotated_back(const std::size_t b, const Matrix3<Pack> &G) const
+  {
+    Matrix3<Pack> S = transposed_product(rotation_of(b), G);
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < i; ++j)
         S(i, j) = S(j, i) = 0.5 * (S(i, j) + S(j, i));
     return S;
+  }
+
+
+  Matrix3<Pack>
+  Tetrahedra::strain(const std::size_t b, const Matrix3<Pack> &F) const
+  {
+    Matrix3<Pack> e = rotated_back(b, F);
+    for (unsigned int i = 0; i < 3; ++i)
+      e(i, i) -= 1.;
+    return e;
   }
 
 
@@ -221,27 +237,16 @@ namespace Supple
   void
   Tetrahedra::add_internal_force(const double *displacement, double *force) const
   {
-    const Matrix3<Pack> I = Matrix3<Pack>::identity();
     for (std::size_t b = 0; b < batches.size(); ++b)
-      {
-        Matrix3<Pack> e = strain(rotations.empty() ? I : rotations[b],
-                                 deformation_gradient(batches[b], displacement));
-        for (unsigned int i = 0; i < 3; ++i)
-          e(i, i) -= 1.;
-        add_stress_divergence(b, e, force);
-      }
+      add_stress_divergence(b, strain(b, deformation_gradient(batches[b], displacement)), force);
   }
 
 
   void
   Tetrahedra::add_stiffness_product(const double *w, double *y) const
   {
-    const Matrix3<Pack> I = Matrix3<Pack>::identity();
     for (std::size_t b = 0; b < batches.size(); ++b)
-      add_stress_divergence(b,
-                            strain(rotations.empty() ? I : rotations[b],
-                                   gradient(batches[b], gather(batches[b], w))),
-                            y);
+      add_stress_divergence(b, rotated_back(b, gradient(batches[b], gather(batches[b], w))), y);
   }
 
 
@@ -255,21 +260,26 @@ namespace Supple
   }
 
 
+  Tetrahedra::NodalPack
+  Tetrahedra::mass_product(const Batch &batch, const NodalPack &values) const
+  {
+    const auto [same, other] = mass_entries(batch);
+    NodalPack product;
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        const Pack sum = values[0][i] + values[1][i] + values[2][i] + values[3][i];
+        for (unsigned int a = 0; a < 4; ++a)
+          product[a][i] = other * sum + (same - other) * values[a][i];
+      }
+    return product;
+  }
+
+
   void
   Tetrahedra::add_mass_product(const double *w, double *y) const
   {
     for (const Batch &batch : batches)
-      {
-        const auto [same, other] = mass_entries(batch);
-        NodalPack values         = gather(batch, w);
-        for (unsigned int i = 0; i < 3; ++i)
-          {
-            const Pack sum = values[0][i] + values[1][i] + values[2][i] + values[3][i];
-            for (unsigned int a = 0; a < 4; ++a)
-              values[a][i] = other * sum + (same - other) * values[a][i];
-          }
-        scatter(batch, values, y);
-      }
+      scatter(batch, mass_product(batch, gather(batch, w)), y);
   }
 
 
@@ -370,71 +380,72 @@ namespace Supple
   Tetrahedra::sums(const double *displacement, const double *velocity) const
   {
     CellSums sums;
-    const Matrix3<Pack> I = Matrix3<Pack>::identity();
-    Pack kinetic(0.), elastic(0.), inverted(0.);
+    add_deformation(displacement, sums);
+    if (velocity != nullptr)
+      add_motion(displacement, velocity, sums);
+    return sums;
+  }
+
+
+  void
+  Tetrahedra::add_deformation(const double *displacement, CellSums &sums) const
+  {
+    Pack elastic(0.), inverted(0.);
     Pack smallest(sums.min_volume_ratio), largest(sums.max_volume_ratio);
-
-    std::array<Pack, 3> linear{{0., 0., 0.}}, angular{{0., 0., 0.}};
-
     for (std::size_t b = 0; b < batches.size(); ++b)
       {
         const Batch &batch    = batches[b];
         const Matrix3<Pack> F = deformation_gradient(batch, displacement);
-        Matrix3<Pack> e       = strain(rotations.empty() ? I : rotations[b], F);
-        for (unsigned int i = 0; i < 3; ++i)
-          e(i, i) -= 1.;
-        const Pack tr = trace(e);
+        const Matrix3<Pack> e = strain(b, F);
+        const Pack tr         = trace(e);
         elastic +=
           batch.owned * batch.volume * (batch.mu * norm_square(e) + 0.5 * batch.lambda * tr * tr);
 
-        const Pack ratio                                   = determinant(F);
-        const auto counted                                 = batch.owned > 0.;
+        const Pack ratio   = determinant(F);
+        const auto counted = batch.owned > 0.;
+
         stdx::where(counted && ratio < smallest, smallest) = ratio;
         stdx::where(counted && ratio > largest, largest)   = ratio;
         stdx::where(counted && !(ratio > 0.), inverted) += 1.;
+      }
+    sums.elastic += stdx::reduce(elastic);
+    sums.min_volume_ratio = stdx::hmin(smallest);
+    sums.max_volume_ratio = stdx::hmax(largest);
+    sums.inverted += static_cast<unsigned int>(stdx::reduce(inverted));
+  }
 
-        if (velocity == nullptr)
-          continue;
-        // The cell's share of M v gives momenta and kinetic energy.
+
+  /** A cell's mass matrix times its velocities gives the momenta of its nodes. */
+  void
+  Tetrahedra::add_motion(const double *displacement, const double *velocity, CellSums &sums) const
+  {
+    Pack kinetic(0.);
+    std::array<Pack, 3> linear{{0., 0., 0.}}, angular{{0., 0., 0.}};
+    for (const Batch &batch : batches)
+      {
         NodalPack x = gather(batch, displacement);
         for (unsigned int lane = 0; lane < n_lanes; ++lane)
           for (unsigned int a = 0; a < 4; ++a)
             for (unsigned int i = 0; i < 3; ++i)
               x[a][i][lane] += positions[batch.nodes[a][lane]][i];
-        const NodalPack v = gather(batch, velocity);
-        const Pack mass   = batch.owned * batch.density * batch.volume;
 
-        const auto [same, other] = mass_entries(batch);
-        NodalPack momentum; // of each node: the cell's mass matrix times v
-        for (unsigned int i = 0; i < 3; ++i)
-          {
-            const Pack sum = v[0][i] + v[1][i] + v[2][i] + v[3][i];
-            linear[i] += 0.25 * mass * sum;
-            for (unsigned int a = 0; a < 4; ++a)
-              {
-                momentum[a][i] = batch.owned * (other * sum + (same - other) * v[a][i]);
-                kinetic += 0.5 * momentum[a][i] * v[a][i];
-              }
-          }
+        const NodalPack v = gather(batch, velocity);
+        const NodalPack p = mass_product(batch, v);
         for (unsigned int a = 0; a < 4; ++a)
           for (unsigned int i = 0; i < 3; ++i)
             {
               const unsigned int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-              angular[i] += x[a][i1] * momentum[a][i2] - x[a][i2] * momentum[a][i1];
+              kinetic += 0.5 * batch.owned * p[a][i] * v[a][i];
+              linear[i] += batch.owned * p[a][i];
+              angular[i] += batch.owned * (x[a][i1] * p[a][i2] - x[a][i2] * p[a][i1]);
             }
       }
-
-    sums.kinetic          = stdx::reduce(kinetic);
-    sums.elastic          = stdx::reduce(elastic);
-    sums.min_volume_ratio = stdx::hmin(smallest);
-    sums.max_volume_ratio = stdx::hmax(largest);
-    sums.inverted         = static_cast<unsigned int>(stdx::reduce(inverted));
+    sums.kinetic += stdx::reduce(kinetic);
     for (unsigned int i = 0; i < 3; ++i)
       {
-        sums.linear_momentum[i]  = stdx::reduce(linear[i]);
-        sums.angular_momentum[i] = stdx::reduce(angular[i]);
+        sums.linear_momentum[i] += stdx::reduce(linear[i]);
+        sums.angular_momentum[i] += stdx::reduce(angular[i]);
       }
-    return sums;
   }
 
 
@@ -442,23 +453,18 @@ namespace Supple
   Tetrahedra::states(const double *displacement) const
   {
     std::vector<CellState> states(n_cells);
-    const Matrix3<Pack> I = Matrix3<Pack>::identity();
     for (std::size_t b = 0; b < batches.size(); ++b)
       {
-        const Matrix3<Pack> F  = deformation_gradient(batches[b], displacement);
-        const Matrix3<Pack> &R = rotations.empty() ? I : rotations[b];
-        Matrix3<Pack> e        = strain(R, F);
-        for (unsigned int i = 0; i < 3; ++i)
-          e(i, i) -= 1.;
+        const Matrix3<Pack> F = deformation_gradient(batches[b], displacement);
 
-        Matrix3<Pack> deviator = stress(batches[b], e);
+        Matrix3<Pack> deviator = stress(batches[b], strain(b, F));
         const Pack mean        = trace(deviator) / 3.;
         for (unsigned int i = 0; i < 3; ++i)
           deviator(i, i) -= mean;
 
         const Pack von_mises = stdx::sqrt(1.5 * norm_square(deviator));
         const Pack ratio     = determinant(F);
-        const Pack cosine    = 0.5 * (trace(R) - 1.);
+        const Pack cosine    = 0.5 * (trace(rotation_of(b)) - 1.);
         for (unsigned int lane = 0; lane < n_lanes && b * n_lanes + lane < n_cells; ++lane)
           {
             const double c             = std::min(1., std::max(-1., double(cosine[lane])));

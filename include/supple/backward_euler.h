@@ -35,8 +35,13 @@ namespace Supple
     static ARKode::AdditionalData
     settings(const Parameters &parameters);
 
+    /** f and M: what ARKode is to solve. */
     void
-    set_callbacks();
+    set_equation_callbacks();
+
+    /** How its linear systems are solved. */
+    void
+    set_solver_callbacks();
 
     void
     set_options(void *arkode_memory);

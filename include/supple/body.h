@@ -42,6 +42,7 @@ namespace Supple
     std::vector<unsigned int> serial_vertex;             ///< vertex index in the unpartitioned mesh
     std::vector<std::array<unsigned int, 4>> cell_nodes; ///< local node numbers
     std::vector<unsigned int> active_cell;               ///< active_cell_index() of each cell
+    std::vector<unsigned int> cell_material;             ///< material id of each cell
 
     std::unique_ptr<Tetrahedra> tetrahedra;
 

@@ -3,6 +3,9 @@
 
 #include <supple/diagnostics.h>
 
+#include <deal.II/numerics/data_out.h>
+
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +44,14 @@ namespace Supple
 
     void
     write_vtu(const State &state, const Measurement &now, const std::string &name);
+
+    void
+    add_fields(const State &state,
+               dealii::DataOut<3> &data,
+               std::array<dealii::Vector<float>, 4> &cell_fields) const;
+
+    void
+    write_pieces(const dealii::DataOut<3> &data, const std::string &name) const;
 
     const Body &body;
     const OutputParameters &parameters;

@@ -144,8 +144,17 @@ namespace Supple
     static Matrix3<Pack>
     gradient(const Batch &batch, const NodalPack &values);
 
-    static Matrix3<Pack>
-    strain(const Matrix3<Pack> &R, const Matrix3<Pack> &F);
+    /** R, the identity for linear elasticity. */
+    Matrix3<Pack>
+    rotation_of(std::size_t batch) const;
+
+    /** sym(R^T G) */
+    Matrix3<Pack>
+    rotated_back(std::size_t batch, const Matrix3<Pack> &G) const;
+
+    /** sym(R^T F) - I */
+    Matrix3<Pack>
+    strain(std::size_t batch, const Matrix3<Pack> &F) const;
 
     static Matrix3<Pack>
     stress(const Batch &batch, const Matrix3<Pack> &strain);
@@ -159,6 +168,16 @@ namespace Supple
     /** Entries (a, a) and (a, b) of a cell's mass matrix. */
     std::pair<Pack, Pack>
     mass_entries(const Batch &batch) const;
+
+    /** The cell's mass matrix times nodal values. */
+    NodalPack
+    mass_product(const Batch &batch, const NodalPack &values) const;
+
+    void
+    add_deformation(const double *displacement, CellSums &sums) const;
+
+    void
+    add_motion(const double *displacement, const double *velocity, CellSums &sums) const;
 
     const std::size_t n_cells;
     const bool lumped_mass;
