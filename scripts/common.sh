@@ -27,7 +27,8 @@ install_missing() {
   fi
   echo "Installing $missing" >&2
   $as_root apt-get update -qq
-  $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing > /dev/null
+  $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing > /dev/null \
+    2> >(grep -v "debconf: delaying package configuration" >&2)
 }
 
 # build FOLDER [CMAKE OPTION...]: configures once, builds what has changed; says nothing unless it takes time or fails.

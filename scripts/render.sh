@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Draws a run: scripts/render.sh OUTPUT_FOLDER PICTURE.png [options of render.py], such as --times 0 0.14 7
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 install_missing pictures
 # VTK draws under a display only, and Debian's VTK belongs to Debian's Python.

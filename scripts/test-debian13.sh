@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs all tests in a Debian 13, made in a folder the first time: sudo scripts/test-debian13.sh [options of ctest].
 # The folder is $SUPPLE_DEBIAN13, or else /var/tmp/supple-debian13. It takes 4 GB and is kept: delete it to start anew.
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 if [ "$(id -u)" -ne 0 ]; then
   echo "Only root can enter another Debian. Type:  sudo scripts/test-debian13.sh" >&2

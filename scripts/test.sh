@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs all tests: scripts/test.sh [options of ctest].
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
-install_missing run test
+install_missing run
 build "$root/build"
 cd "$root/build"
 exec ctest --output-on-failure --no-tests=error -j "$(nproc)" "$@"

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Takes the results of this machine as the expected outputs of the tests in tests/: scripts/update-references.sh [NAME...].
 # Look at `git diff` afterwards: a reference that changes needs a reason.
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
-install_missing run test
+install_missing run
 build "$root/build"
 names=("$@")
 if [ $# -eq 0 ]; then

@@ -7,6 +7,7 @@
 #include <deal.II/fe/fe_simplex_p.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace Supple
 {
@@ -16,7 +17,6 @@ namespace Supple
     : mesh(mesh)
     , rotation(rotation)
     , fe(FE_SimplexP<3>(1), 3)
-    , mapping(FE_SimplexP<3>(1))
     , dof_handler(mesh.triangulation)
   {
     dof_handler.distribute_dofs(fe);
@@ -159,13 +159,20 @@ namespace Supple
   Body::region_nodes(const std::string &expression, const std::string &origin) const
   {
     const Expression inside(expression, 1, origin);
+    if (inside.depends_on_time())
+      throw InputError(origin + ": a region is made of x, y and z; it can't depend on the time t.");
     std::vector<bool> nodes(n_local);
     unsigned int n_found = 0;
+    bool is_finite       = true;
     for (unsigned int node = 0; node < n_local; ++node)
       {
-        nodes[node] = inside.value(position(node), 0.) != 0.;
+        const double value = inside.value(position(node), 0.);
+        is_finite          = is_finite && std::isfinite(value);
+        nodes[node]        = value != 0.;
         n_found += nodes[node];
       }
+    if (Utilities::MPI::max(is_finite ? 0 : 1, mesh.communicator) > 0)
+      throw InputError(origin + ": it is not a finite number at every vertex.");
     if (Utilities::MPI::max(n_found, mesh.communicator) == 0)
       {
         std::string known;

@@ -37,7 +37,7 @@ namespace Supple
       {
         const std::string &word = words[i];
         const auto value        = [&](const std::string &what) {
-          if (i + 1 >= words.size())
+          if (i + 1 >= words.size() || words[i + 1].rfind("--", 0) == 0)
             throw InputError(word + ": " + what + " must follow.");
           return words[++i];
         };

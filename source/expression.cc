@@ -90,14 +90,4 @@ namespace Supple
     function->set_time(time);
     return function->value(point, component);
   }
-
-
-  dealii::Tensor<1, 3>
-  Expression::vector_value(const dealii::Point<3> &point, const double time) const
-  {
-    dealii::Tensor<1, 3> result;
-    for (unsigned int c = 0; c < 3; ++c)
-      result[c] = value(point, time, c);
-    return result;
-  }
 } // namespace Supple

@@ -9,8 +9,6 @@
 #include <deal.II/numerics/data_out.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 
 namespace Supple
@@ -29,18 +27,8 @@ namespace Supple
   bool
   Frames::has_moved(const Vector &displacement) const
   {
-    double farthest = 0.;
-    for (unsigned int node = 0; node < body.n_owned; ++node)
-      {
-        double square = 0.;
-        for (unsigned int i = 0; i < 3; ++i)
-          square += std::pow(displacement.local_element(3 * node + i) -
-                               last_displacement.local_element(3 * node + i),
-                             2);
-        farthest = std::max(farthest, square);
-      }
-    farthest = Utilities::MPI::max(farthest, body.mesh.communicator);
-    return std::sqrt(farthest) > parameters.motion * body.mesh.diameter();
+    return largest_vertex_distance(displacement, last_displacement) >
+           parameters.motion * body.mesh.diameter();
   }
 
 

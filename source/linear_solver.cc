@@ -5,6 +5,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
+#include <sstream>
 
 namespace Supple
 {
@@ -67,23 +68,24 @@ namespace Supple
     , effort(effort)
   {
     A.body.initialize(residual);
+    A.body.initialize(correction);
   }
 
 
   std::unique_ptr<LinearSolver>
-  LinearSolver::create(const ImplicitOperator &A,
-                       const SolverParameters &parameters,
-                       Effort &effort)
+  LinearSolver::create(const ImplicitOperator &A, const Parameters &scene, Effort &effort)
+
   {
-    std::string reason = "asked for";
-    Method method      = parameters.method;
+    const SolverParameters &parameters = scene.solver;
+    std::string reason                 = "asked for";
+    Method method                      = parameters.method;
     if (method == Method::automatic)
       method = choose(A, reason);
 
     const bool direct = method == Method::ldlt || method == Method::cholmod;
     if (direct && dealii::Utilities::MPI::n_mpi_processes(A.body.mesh.communicator) > 1)
-      throw InputError(
-        "Solver/Method: ldlt and cholmod work on one process; on several take cg-ml or auto.");
+      throw InputError(scene.origin("Solver/Method") +
+                       ": ldlt and cholmod work on one process; on several take cg-ml or auto.");
 
     std::unique_ptr<LinearSolver> solver;
     switch (method)
@@ -126,17 +128,39 @@ namespace Supple
         x = 0.;
         return 0;
       }
-    const unsigned int n_iterations = do_solve(x, b);
+    unsigned int n_iterations = do_solve(x, b);
+    double relative           = residual_norm(x, b) / size;
 
-    A.vmult(residual, x);
-    residual.sadd(-1., 1., b);
-    const double relative = residual.l2_norm() / size;
+    // Round-off in large or badly conditioned systems: solve for what is left over.
+    for (unsigned int n = 0; n < 3 && relative > 2. * parameters.tolerance; ++n)
+      {
+        n_iterations += do_solve(correction, residual);
+        x += correction;
+        relative = residual_norm(x, b) / size;
+      }
     if (!std::isfinite(relative))
       throw ComputationError("the linear solver " + name() + " gave no finite numbers");
+    if (relative > std::max(1e-6, 10. * parameters.tolerance))
+      {
+        std::ostringstream text;
+        text << "the linear system is too badly conditioned: " << name()
+             << " left a relative residual of " << relative
+             << ". Are cells extremely thin, or the body almost incompressible";
+        throw ComputationError(text.str());
+      }
 
     ++effort.solves;
     effort.linear_iterations += n_iterations;
     effort.max_relative_residual = std::max(effort.max_relative_residual, relative);
     return n_iterations;
+  }
+
+
+  double
+  LinearSolver::residual_norm(const Vector &x, const Vector &b)
+  {
+    A.vmult(residual, x);
+    residual.sadd(-1., 1., b);
+    return residual.l2_norm();
   }
 } // namespace Supple

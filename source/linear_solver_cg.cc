@@ -10,6 +10,7 @@
 
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
+#include <sstream>
 
 namespace Supple
 {
@@ -45,10 +46,11 @@ namespace Supple
           }
         catch (const SolverControl::NoConvergence &)
           {
-            throw ComputationError(
-              "conjugate gradients (" + name() + ") did not reach the relative residual " +
-              std::to_string(parameters.tolerance) + " in " + std::to_string(control.last_step()) +
-              " iterations; they got to " + std::to_string(control.last_value() / b.l2_norm()));
+            std::ostringstream text;
+            text << "conjugate gradients (" << name() << ") did not reach the relative residual "
+                 << parameters.tolerance << " in " << control.last_step()
+                 << " iterations; they got to " << control.last_value() / b.l2_norm();
+            throw ComputationError(text.str());
           }
         return control.last_step();
       }

@@ -4,10 +4,26 @@
 #include <Eigen/CholmodSupport>
 #include <Eigen/SparseCholesky>
 
+#include <cstdlib>
+
+// OpenBLAS has it, other BLAS libraries have not.
+extern "C" void
+openblas_set_num_threads(int) __attribute__((weak));
+
 namespace Supple
 {
   namespace
   {
+    /** Threads of BLAS that wait for each other slow bodies of this size down: one unless the user
+     * asks for more. */
+    void
+    limit_blas_threads()
+    {
+      if (openblas_set_num_threads != nullptr && std::getenv("OPENBLAS_NUM_THREADS") == nullptr)
+        openblas_set_num_threads(1);
+    }
+
+
     using SparseMatrix = Eigen::SparseMatrix<double>;
 
     void
@@ -19,6 +35,7 @@ namespace Supple
     void
     adjust(Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> &factorization)
     {
+      limit_blas_threads();
       factorization.cholmod().nmethods           = 1;
       factorization.cholmod().method[0].ordering = CHOLMOD_AMD;
       factorization.cholmod().postorder          = 1;

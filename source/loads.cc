@@ -1,5 +1,9 @@
 #include <supple/loads.h>
 
+#include <supple/error.h>
+
+#include <cmath>
+
 namespace Supple
 {
   using namespace dealii;
@@ -19,6 +23,9 @@ namespace Supple
       {
         body.initialize(applied);
         body.initialize(total);
+        if (!std::isfinite(force(0.).l2_norm()))
+          throw InputError(parameters.origin("Loads/Body force") +
+                           ": it is not a finite number at every vertex at time 0.");
       }
   }
 

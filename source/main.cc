@@ -13,6 +13,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <iostream>
+#include <new>
 
 namespace
 {
@@ -38,12 +39,7 @@ namespace
         case Action::run:
           {
             const auto parameters = Supple::Parameters::read(line.scene, line.overrides);
-            std::string folder    = "output/" + parameters.scene_name;
-            if (!parameters.output.folder.empty())
-              folder = parameters.output.folder;
-            if (!line.output.empty())
-              folder = line.output;
-
+            const auto folder     = line.output.empty() ? parameters.output_folder() : line.output;
             Supple::Simulation simulation(parameters, folder, line.quiet, MPI_COMM_WORLD);
             if (line.action == Action::run)
               simulation.run();
@@ -69,6 +65,13 @@ main(int argc, char **argv)
       std::cerr << "supple: " << exception.what() << std::endl;
     return exit_status;
   };
+  // Perhaps on this process alone: the others must not wait for it.
+  const auto abandon = [](const std::string &message) {
+    std::cerr << "supple: " << message << std::endl;
+    if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+      MPI_Abort(MPI_COMM_WORLD, 2);
+    return 2;
+  };
   try
     {
       execute(Supple::CommandLine::parse(argc, argv), root);
@@ -82,15 +85,12 @@ main(int argc, char **argv)
     {
       return fail(error, 2);
     }
-  catch (const Supple::InterruptedError &error)
+  catch (const std::bad_alloc &)
     {
-      return fail(error, 2);
+      return abandon("there is not enough memory for this scene.");
     }
-  catch (
-    const std::exception &error) // perhaps on this process alone: the others must not wait for it
+  catch (const std::exception &error)
     {
-      std::cerr << "supple: " << error.what() << std::endl;
-      MPI_Abort(MPI_COMM_WORLD, 2);
-      return 2;
+      return abandon(error.what());
     }
 }

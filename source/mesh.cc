@@ -1,8 +1,14 @@
 #include <supple/mesh.h>
 
+#include <supple/error.h>
+#include <supple/expression.h>
+
+#include <deal.II/base/utilities.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria_description.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 namespace Supple
@@ -11,25 +17,16 @@ namespace Supple
 
   namespace
   {
-    /** det [x1-x0, x2-x0, x3-x0], six times the volume. */
-    double
-    six_volumes(const SerialMesh &mesh, const std::array<unsigned int, 4> &cell)
-    {
-      const Point<3> &origin = mesh.vertices[cell[0]];
-      return cross_product_3d(mesh.vertices[cell[1]] - origin, mesh.vertices[cell[2]] - origin) *
-             (mesh.vertices[cell[3]] - origin);
-    }
-
-
     void
     create_triangulation(const SerialMesh &mesh, Triangulation<3> &triangulation)
     {
       std::vector<CellData<3>> cells;
       cells.reserve(mesh.cells.size());
-      for (const auto &vertices : mesh.cells)
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
         {
           cells.emplace_back(4);
-          std::copy(vertices.begin(), vertices.end(), cells.back().vertices.begin());
+          std::copy(mesh.cells[c].begin(), mesh.cells[c].end(), cells.back().vertices.begin());
+          cells.back().material_id = mesh.materials[c];
         }
       SubCellData faces;
       faces.boundary_quads.reserve(mesh.boundary.size());
@@ -43,76 +40,104 @@ namespace Supple
         }
       triangulation.create_triangulation(mesh.vertices, cells, faces);
     }
+
+
+    /** "[0, 4] x [0, 12] x [0, 4]" */
+    std::string
+    extent_of(const BoundingBox<3> &box)
+    {
+      std::ostringstream text;
+      for (unsigned int d = 0; d < 3; ++d)
+        text << (d == 0 ? "[" : " x [") << box.lower_bound(d) << ", " << box.upper_bound(d) << "]";
+      return text.str();
+    }
+
+
+    /** Of those vertices that cells have. */
+    BoundingBox<3>
+    box_around(const SerialMesh &mesh)
+    {
+      Point<3> low = mesh.vertices[mesh.cells[0][0]], high = low;
+      for (const auto &cell : mesh.cells)
+        for (const unsigned int v : cell)
+          for (unsigned int d = 0; d < 3; ++d)
+            {
+              low[d]  = std::min(low[d], mesh.vertices[v][d]);
+              high[d] = std::max(high[d], mesh.vertices[v][d]);
+            }
+      return BoundingBox<3>({low, high});
+    }
+
+
+    /** Boundary ids by expressions: those that the user gives are stronger. */
+    void
+    assign_boundary_regions(SerialMesh &mesh, const Parameters &parameters)
+    {
+      const std::string origin = parameters.origin("Mesh/Boundary regions");
+      for (const std::string &item :
+           Utilities::split_string_list(parameters.mesh.boundary_regions, ';'))
+        {
+          if (item.empty())
+            continue;
+          const auto colon = item.find(':');
+          const std::string id =
+            Utilities::trim(item.substr(0, colon == std::string::npos ? 0 : colon));
+          if (id.empty() || id.size() > 6 ||
+              id.find_first_not_of("0123456789") != std::string::npos)
+            throw InputError(origin + ": '" + item + "' is not of the form id: expression.");
+          const Expression inside(item.substr(colon + 1), 1, origin);
+
+          unsigned int n_faces = 0;
+          for (auto &triangle : mesh.boundary)
+            if (std::all_of(triangle.vertices.begin(),
+                            triangle.vertices.end(),
+                            [&](const unsigned int v) {
+                              return inside.value(mesh.vertices[v], 0.) != 0.;
+                            }))
+              {
+                triangle.boundary_id = std::stoul(id);
+                ++n_faces;
+              }
+          if (n_faces == 0)
+            throw InputError(origin + ": no face of the surface has all its vertices in '" +
+                             item.substr(colon + 1) + "'. The body lies in " +
+                             extent_of(box_around(mesh)) + " m.");
+        }
+    }
   } // namespace
 
 
   SerialMesh
-  box_mesh(const MeshParameters &parameters)
+  make_serial_mesh(const Parameters &parameters)
   {
-    SerialMesh mesh;
-    const auto [nx, ny, nz] = parameters.cubes;
-
-    for (unsigned int k = 0; k <= nz; ++k)
-      for (unsigned int j = 0; j <= ny; ++j)
-        for (unsigned int i = 0; i <= nx; ++i)
-          mesh.vertices.emplace_back(parameters.origin[0] + parameters.size[0] * i / nx,
-                                     parameters.origin[1] + parameters.size[1] * j / ny,
-                                     parameters.origin[2] + parameters.size[2] * k / nz);
-
-    // Corner c of a cube lies at its 0/1-coordinates (c & 1, c & 2, c & 4).
-    const std::array<std::array<unsigned int, 2>, 6> paths = {
-      {{{1, 3}}, {{1, 5}}, {{2, 3}}, {{2, 6}}, {{4, 5}}, {{4, 6}}}};
-    const std::array<unsigned int, 3> stride = {{1, nx + 1, (nx + 1) * (ny + 1)}};
-    const std::array<unsigned int, 3> n      = {{nx, ny, nz}};
-
-    for (unsigned int k = 0; k < nz; ++k)
-      for (unsigned int j = 0; j < ny; ++j)
-        for (unsigned int i = 0; i < nx; ++i)
-          for (const auto &path : paths)
-            {
-              const std::array<unsigned int, 3> cube = {{i, j, k}};
-              std::array<unsigned int, 4> corners    = {{0, path[0], path[1], 7}}, cell;
-              const auto vertex                      = [&](const unsigned int corner) {
-                unsigned int index = 0;
-                for (unsigned int d = 0; d < 3; ++d)
-                  index += (cube[d] + ((corner >> d) & 1)) * stride[d];
-                return index;
-              };
-              std::transform(corners.begin(), corners.end(), cell.begin(), vertex);
-              if (six_volumes(mesh, cell) < 0)
-                {
-                  std::swap(cell[1], cell[2]);
-                  std::swap(corners[1], corners[2]);
-                }
-              mesh.cells.push_back(cell);
-
-              // A face opposite to a vertex lies on the boundary if its corners share a coordinate
-              // there.
-              for (unsigned int opposite = 0; opposite < 4; ++opposite)
-                for (unsigned int d = 0; d < 3; ++d)
-                  for (const unsigned int side : {0u, 1u})
-                    {
-                      bool on_side = cube[d] == (side == 0 ? 0 : n[d] - 1);
-                      std::array<unsigned int, 3> face;
-                      for (unsigned int a = 0, f = 0; a < 4; ++a)
-                        if (a != opposite)
-                          {
-                            on_side   = on_side && ((corners[a] >> d) & 1) == side;
-                            face[f++] = cell[a];
-                          }
-                      if (on_side)
-                        mesh.boundary.push_back({face, 2 * d + side});
-                    }
-            }
-    return mesh;
+    switch (parameters.mesh.shape)
+      {
+        case MeshParameters::Shape::box:
+          return box_mesh(parameters.mesh);
+        case MeshParameters::Shape::hollow_cylinder:
+          return hollow_cylinder_mesh(parameters.mesh);
+        default:
+          {
+            const auto file = std::filesystem::path(parameters.scene_folder) / parameters.mesh.file;
+            SerialMesh mesh = read_mesh(file.string(), parameters.origin("Mesh/File"));
+            for (auto &vertex : mesh.vertices)
+              vertex *= parameters.mesh.scale;
+            return mesh;
+          }
+      }
   }
 
 
-  Mesh::Mesh(const MeshParameters &parameters, const MPI_Comm communicator)
+  Mesh::Mesh(const Parameters &parameters, const MPI_Comm communicator)
     : communicator(communicator)
     , triangulation(communicator)
   {
-    const SerialMesh mesh = box_mesh(parameters);
+    SerialMesh mesh = make_serial_mesh(parameters);
+    report          = check_mesh(mesh,
+                        parameters.origin(parameters.mesh.shape == MeshParameters::Shape::file
+                                            ? "Mesh/File"
+                                            : "Mesh/Shape"));
+    assign_boundary_regions(mesh, parameters);
     measure(mesh);
 
     Triangulation<3> serial;
@@ -120,6 +145,12 @@ namespace Supple
     GridTools::partition_triangulation(Utilities::MPI::n_mpi_processes(communicator),
                                        serial,
                                        SparsityTools::Partitioner::metis);
+    std::vector<unsigned int> cells_of(Utilities::MPI::n_mpi_processes(communicator));
+    for (const auto &cell : serial.active_cell_iterators())
+      ++cells_of[cell->subdomain_id()];
+    if (*std::min_element(cells_of.begin(), cells_of.end()) == 0)
+      throw InputError(std::to_string(cells_of.size()) + " processes are too many for " +
+                       std::to_string(n_cells) + " cells: one of them would have none.");
     triangulation.create_triangulation(
       TriangulationDescription::Utilities::create_description_from_triangulation(serial,
                                                                                  communicator));
@@ -135,11 +166,14 @@ namespace Supple
   Mesh::measure(const SerialMesh &mesh)
   {
     n_cells      = mesh.cells.size();
-    n_vertices   = mesh.vertices.size();
-    bounding_box = BoundingBox<3>(mesh.vertices);
+    n_vertices   = mesh.vertices.size() - report.unused_vertices;
+    bounding_box = box_around(mesh);
     volume       = 0.;
-    for (const auto &cell : mesh.cells)
-      volume += six_volumes(mesh, cell) / 6.;
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      {
+        volume += mesh.volume(c);
+        ++materials[mesh.materials[c]];
+      }
     for (const auto &triangle : mesh.boundary)
       ++boundaries[triangle.boundary_id];
   }
@@ -156,10 +190,6 @@ namespace Supple
   std::string
   Mesh::extent() const
   {
-    const auto &corners = bounding_box.get_boundary_points();
-    std::ostringstream text;
-    for (unsigned int d = 0; d < 3; ++d)
-      text << (d == 0 ? "[" : " x [") << corners.first[d] << ", " << corners.second[d] << "]";
-    return text.str();
+    return extent_of(bounding_box);
   }
 } // namespace Supple

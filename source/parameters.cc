@@ -1,6 +1,7 @@
 #include <supple/parameters.h>
 
 #include <supple/error.h>
+#include <supple/expression.h>
 #include <supple/patterns.h>
 
 #include <deal.II/base/patterns.h>
@@ -75,7 +76,15 @@ namespace Supple
   void
   MeshParameters::declare(ParameterHandler &prm)
   {
+    const Range positive = Range::between(0, infinity);
     prm.enter_subsection("Mesh");
+    add_choice(prm,
+               "Shape",
+               shape,
+               {{"box", Shape::box},
+                {"hollow cylinder", Shape::hollow_cylinder},
+                {"file", Shape::file}},
+               "The body: a box, a hollow cylinder about the z axis, or what a mesh file holds.");
     add(prm,
         "Box origin",
         origin,
@@ -86,19 +95,87 @@ namespace Supple
         "Box size",
         size,
         "m",
-        RangeList::three(Range::between(0, infinity)),
+        RangeList::three(positive),
         "Lengths of the box along x, y and z.");
+    add(
+      prm,
+      "Box cubes",
+      cubes,
+      "none",
+      RangeList::three(Range::whole_number(1)),
+      "Number of cubes along x, y and z; each is cut into six tetrahedra along its diagonal from "
+      "the "
+      "smallest to the largest coordinates. The faces of the box have the boundary ids 0 (smallest "
+      "x), 1 (largest x), 2, 3 (y), 4, 5 (z).");
+    add(prm, "Cylinder inner radius", inner_radius, "m", positive, "Radius of the cavity.");
+    add(prm, "Cylinder outer radius", outer_radius, "m", positive, "Radius of the outer wall.");
+    add(prm, "Cylinder height", height, "m", positive, "Length along z; the middle is at z = 0.");
     add(prm,
-        "Box cubes",
-        cubes,
+        "Cylinder sectors",
+        sectors,
         "none",
-        RangeList::three(Range::whole_number(1)),
-        "Number of cubes along x, y and z; each is cut into six tetrahedra along its diagonal from "
-        "the smallest "
-        "to the largest coordinates. The faces of the box have the boundary ids 0 (smallest x), 1 "
-        "(largest x), "
-        "2, 3 (y), 4, 5 (z).");
+        Range::whole_number(3),
+        "Number of vertices on each circle.");
+    add(
+      prm,
+      "Cylinder rings",
+      rings,
+      "none",
+      Range::whole_number(2),
+      "Number of cross sections with vertices, both ends included. Boundary ids: 0 (inner wall), 1 "
+      "(outer wall), 2 (bottom), 3 (top).");
+    add(prm,
+        "Cylinder layers",
+        layers,
+        "none",
+        Range::whole_number(1),
+        "Number of layers of cells through the wall.");
+    add(prm,
+        "File",
+        file,
+        "none",
+        dealii::Patterns::Anything(),
+        "Mesh file (.msh, .vtk, .unv, .mesh, .bdf), relative to the folder of the scene. Physical "
+        "volumes "
+        "become material ids and physical surfaces boundary ids.");
+    add(prm,
+        "Scale",
+        scale,
+        "m per unit of the file",
+        positive,
+        "All coordinates of a file times this.");
+    prm.add_parameter(
+      "Boundary regions",
+      boundary_regions,
+      "Boundary ids by place, such as 7: z < 0.1; 8: z > 2. A face of the surface whose vertices "
+      "all satisfy the expression gets the id, whatever it had before. Unit: m. Range: id: "
+      "expression of x, y, z, set apart by semicolons.",
+      dealii::Patterns::Anything());
     prm.leave_subsection();
+  }
+
+
+  void
+  MeshParameters::check(const Parameters &parameters) const
+  {
+    const double n_cubes = double(cubes[0]) * cubes[1] * cubes[2];
+    if (shape == Shape::box && n_cubes > 2e7)
+      throw InputError(parameters.origin("Mesh/Box cubes") + ": there can be 2e7 cubes at most.");
+    const double n_wedges = double(sectors) * rings * layers;
+    if (shape == Shape::hollow_cylinder && n_wedges > 2e7)
+      throw InputError(parameters.origin("Mesh/Cylinder rings") +
+                       ": there can be 2e7 vertices at most.");
+    if (shape == Shape::hollow_cylinder && inner_radius >= outer_radius)
+      throw InputError(parameters.origin("Mesh/Cylinder inner radius") +
+                       ": it must be smaller than the outer radius.");
+    if (shape == Shape::hollow_cylinder &&
+        inner_radius > outer_radius * std::cos(dealii::numbers::PI / sectors))
+      throw InputError(
+        parameters.origin("Mesh/Cylinder sectors") +
+        ": so few that the straight edges of the outer wall would cut through the inner one. "
+        "Take more sectors or a thicker wall.");
+    if (shape == Shape::file && file.empty())
+      throw InputError(parameters.origin("Mesh/File") + ": Shape = file needs a mesh file.");
   }
 
 
@@ -386,7 +463,7 @@ namespace Supple
         "History",
         history,
         "none",
-        Patterns::Bool(),
+        Range::one_of("true|false"),
         "Whether history.csv and probes.csv are written.");
     prm.leave_subsection();
   }
@@ -459,14 +536,14 @@ namespace Supple
       throw InputError(origin("Material/Lame lambda") +
                        ": 3 lambda + 2 mu must be positive, or the body gives way to pressure.");
 
-    const double n_cubes = double(mesh.cubes[0]) * mesh.cubes[1] * mesh.cubes[2];
-    if (n_cubes > 1e8)
-      throw InputError(origin("Mesh/Box cubes") + ": " + std::to_string(n_cubes) +
-                       " cubes; there can be 1e8 at most.");
-
+    mesh.check(*this);
     if (time.problem == TimeParameters::Problem::stationary && damping.any())
       throw InputError(origin("Time/Problem") +
                        ": a static problem knows no velocity; take the damping out of the scene.");
+    if (time.problem == TimeParameters::Problem::stationary &&
+        !Expression(start.velocity, 3, origin("Start/Velocity")).is_zero())
+      throw InputError(origin("Start/Velocity") +
+                       ": a static problem knows no velocity; it must be 0; 0; 0.");
   }
 
 
@@ -480,7 +557,7 @@ namespace Supple
       std::ostringstream text;
       exception.print_info(text);
       const std::string line =
-        std::regex_replace(dealii::Utilities::trim(text.str()), std::regex("\\s+"), " ");
+        std::regex_replace(dealii::Utilities::trim(text.str()), std::regex("\\n\\s*"), " ");
       const std::regex where("^Line <(\\d+)> of file <([^:>]*)>?: ");
       return std::regex_replace(line, where, place.empty() ? "$2:$1: " : place + ": ") +
              "\nsupple --print-parameters lists every entry.";
@@ -498,11 +575,16 @@ namespace Supple
       for (unsigned int number = 1; std::getline(lines, line); ++number)
         {
           std::smatch found;
-          if (std::regex_match(line, found, std::regex("\\s*subsection\\s+(.*?)\\s*(#.*)?")))
+          if (std::regex_match(line,
+                               found,
+                               std::regex("\\s*subsection\\s+(.*?)\\s*(#.*)?", std::regex::icase)))
             sections.push_back(found[1]);
-          else if (std::regex_match(line, std::regex("\\s*end\\s*(#.*)?")) && !sections.empty())
+          else if (std::regex_match(line, std::regex("\\s*end\\s*(#.*)?", std::regex::icase)) &&
+                   !sections.empty())
             sections.pop_back();
-          else if (std::regex_match(line, found, std::regex("\\s*set\\s+(.*?)\\s*=.*")))
+          else if (std::regex_match(line,
+                                    found,
+                                    std::regex("\\s*set\\s+(.*?)\\s*=.*", std::regex::icase)))
             {
               std::string path;
               for (const std::string &section : sections)
@@ -550,12 +632,15 @@ namespace Supple
       throw InputError(file + ": there is no such parameter file, or it can't be read.");
     std::stringstream content;
     content << stream.rdbuf();
+    if (dealii::Utilities::trim(content.str()).empty())
+      throw InputError(file + ": this parameter file is empty.");
 
     Parameters parameters;
     ParameterHandler prm;
     parameters.declare(prm);
-    parameters.scene_name = std::filesystem::path(file).stem().string();
-    parameters.places     = find_places(file, content.str());
+    parameters.scene_name   = std::filesystem::path(file).stem().string();
+    parameters.scene_folder = std::filesystem::path(file).parent_path().string();
+    parameters.places       = find_places(file, content.str());
     try
       {
         prm.parse_input(content, file);
@@ -586,6 +671,13 @@ namespace Supple
 
     parameters.check();
     return parameters;
+  }
+
+
+  std::string
+  Parameters::output_folder() const
+  {
+    return output.folder.empty() ? "output/" + scene_name : output.folder;
   }
 
 

@@ -5,6 +5,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
+#include <cmath>
 #include <sstream>
 
 namespace Supple
@@ -23,7 +24,7 @@ namespace Supple
     const std::string boundaries = parameters.origin("Probes/Boundaries");
     for (const auto &[name, text] : named_list(wanted.boundaries, boundaries))
       {
-        if (text.find_first_not_of("0123456789") != std::string::npos)
+        if (text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
           throw InputError(boundaries + ": '" + text + "' is no boundary id.");
         add_nodes(name, "boundary " + text, body.boundary_nodes(std::stoul(text), boundaries));
       }
@@ -46,7 +47,8 @@ namespace Supple
     try
       {
         const auto numbers = Utilities::string_to_double(Utilities::split_string_list(text, ','));
-        AssertThrow(numbers.size() == 3, ExcInternalError());
+        AssertThrow(numbers.size() == 3 && std::isfinite(numbers[0] + numbers[1] + numbers[2]),
+                    ExcInternalError());
         point = Point<3>(numbers[0], numbers[1], numbers[2]);
       }
     catch (const std::exception &)

@@ -22,9 +22,10 @@ namespace Supple
   }
 
 
-  Progress::Progress(const unsigned int n_steps, const bool wanted)
+  Progress::Progress(const unsigned int n_steps, const bool wanted, const bool plain)
     : n_steps(n_steps)
     , active(wanted && isatty(STDOUT_FILENO))
+    , plain(plain)
     , start(Clock::now())
     , last(start)
   {
@@ -37,8 +38,11 @@ namespace Supple
     if (!active)
       return;
     const auto now = Clock::now();
-    if (now - last < std::chrono::milliseconds(200) && step < n_steps)
+    if (plain ? 10. * step < double(next_tenth) * n_steps
+              : (now - last < std::chrono::milliseconds(200) && step < n_steps))
       return;
+    while (10. * step >= double(next_tenth) * n_steps)
+      ++next_tenth;
     last = now;
 
     const double seconds = std::chrono::duration<double>(now - start).count();
@@ -46,14 +50,16 @@ namespace Supple
     char text[128];
     std::snprintf(text,
                   sizeof(text),
-                  "\r%3.0f %%  step %u of %u  %.3g steps/s  %s left\033[K",
+                  "%s%3.0f %%  step %u of %u  %.3g steps/s  %s left%s",
+                  plain ? "" : "\r",
                   100. * step / n_steps,
                   step,
                   n_steps,
                   rate,
-                  readable_duration((n_steps - step) / rate).c_str());
+                  readable_duration((n_steps - step) / rate).c_str(),
+                  plain ? "\n" : "\033[K");
     std::cout << text << std::flush;
-    shown = true;
+    shown = !plain;
   }
 
 

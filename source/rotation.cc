@@ -34,7 +34,7 @@ namespace Supple
   {
     const Pack defect = orthogonality_defect(R);
     for (unsigned int lane = 0; lane < n_lanes; ++lane)
-      if (!(defect[lane] <= 1e-22))
+      if (!(defect[lane] <= largest_orthogonality_defect))
         {
           Matrix3<double> G;
           for (unsigned int k = 0; k < 9; ++k)

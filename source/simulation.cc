@@ -15,11 +15,11 @@ namespace Supple
 {
   using namespace dealii;
 
-  Simulation::Simulation(const Parameters &parameters,
+  Simulation::Simulation(const Parameters &scene,
                          const std::string &folder,
                          const bool quiet,
                          const MPI_Comm communicator)
-    : parameters(parameters)
+    : parameters(scene)
     , folder(folder)
     , communicator(communicator)
     , stationary(parameters.time.problem == TimeParameters::Problem::stationary)
@@ -27,15 +27,15 @@ namespace Supple
     , writes(parameters.output.history ||
              parameters.output.frames != OutputParameters::Frames::none)
     , start(std::chrono::steady_clock::now())
-    , mesh(parameters.mesh, communicator)
+    , mesh(parameters, communicator)
     , body(mesh, parameters.material, parameters.corotation.rotation)
     , constraints(body, parameters)
     , loads(body, parameters)
     , probes(body, parameters)
     , implicit_operator(body, constraints, parameters, effort)
-    , solver(LinearSolver::create(implicit_operator, parameters.solver, effort))
+    , solver(LinearSolver::create(implicit_operator, parameters, effort))
     , diagnostics(body, loads, stationary)
-    , progress(parameters.time.n_steps, talks)
+    , progress(parameters.time.n_steps, talks, Utilities::MPI::n_mpi_processes(communicator) > 1)
   {
     if (stationary && constraints.n_free_rigid_motions > 0)
       throw InputError("A static scene needs a body that is held: " +
@@ -44,10 +44,16 @@ namespace Supple
                        "Hold a boundary or a "
                        "region (subsection Constraints), or make the problem dynamic.");
     create_initial_state();
-    const Model model{
-      body, constraints, loads, implicit_operator, *solver, this->parameters, effort};
-    integrator    = TimeIntegrator::create(model, state.block(0));
-    setup_seconds = seconds_since_start();
+    integrator         = TimeIntegrator::create(model(), state.block(0));
+    start_displacement = state.block(0);
+    setup_seconds      = seconds_since_start();
+  }
+
+
+  Model
+  Simulation::model()
+  {
+    return {body, constraints, loads, implicit_operator, *solver, parameters, effort};
   }
 
 
@@ -174,6 +180,10 @@ namespace Supple
         record(StepReport());
         time_loop();
       }
+    catch (const InterruptedError &)
+      {
+        throw;
+      }
     catch (const ComputationError &error)
       {
         progress.clear();
@@ -184,6 +194,10 @@ namespace Supple
              << " are in " << folder << ".";
         finish("failed: " + text.str());
         throw ComputationError(text.str());
+      }
+    catch (const WriteError &error)
+      {
+        throw WriteError("After step " + std::to_string(step) + ": " + error.what());
       }
   }
 
@@ -225,6 +239,8 @@ namespace Supple
     now.step = step;
     now.time = time;
     error_estimate += report.local_error;
+    largest_motion =
+      std::max(largest_motion, largest_vertex_distance(state.block(0), start_displacement));
     record(report);
   }
 
@@ -238,7 +254,6 @@ namespace Supple
       const PhaseTimer timer(effort, Phase::diagnostics);
       now =
         diagnostics.measure(step, now.time, seconds_since_start() - setup_seconds, state, report);
-      largest_motion = std::max(largest_motion, state.block(0).linfty_norm());
     }
     const PhaseTimer timer(effort, Phase::output);
     if (history)
@@ -264,8 +279,6 @@ namespace Supple
         const PhaseTimer timer(effort, Phase::output);
         frames->write(state, now);
       }
-    largest_motion = std::max(largest_motion, state.block(0).linfty_norm());
-
     Summary summary;
     summary.status         = status;
     summary.integrator     = integrator->name();
@@ -279,17 +292,16 @@ namespace Supple
     summary.probes         = parameters.output.history && !probes.empty();
     summary.observed       = writes;
     summary.last           = now;
-    const Model model{body, constraints, loads, implicit_operator, *solver, parameters, effort};
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
-      write_whole_file(folder + "/summary.json", summary.to_json(model));
+      write_whole_file(folder + "/summary.json", summary.to_json(model()));
 
     if (talks && status == "done")
       {
         std::cout << "done: " << step << " steps in " << readable_duration(summary.run_seconds)
                   << ", " << std::lround(step / summary.run_seconds) << " steps/s";
         if (implicit_operator.has_mass())
-          std::cout << "; estimated error " << error_estimate << " m, motion " << largest_motion
-                    << " m";
+          std::cout << "; sum of local errors " << error_estimate << " m beside a motion of "
+                    << largest_motion << " m";
         std::cout << "; " << summary.frames << " frames in " << folder << std::endl;
       }
   }

@@ -15,6 +15,9 @@ namespace Supple
     model.body.initialize(residual);
     model.body.initialize(correction);
     model.body.initialize(free_residual);
+    force_accuracy =
+      std::sqrt(dealii::Utilities::MPI::sum(model.body.tetrahedra->round_off_square(),
+                                            model.body.mesh.communicator));
   }
 
 
@@ -32,6 +35,8 @@ namespace Supple
     model.body.update_rotations(displacement, model.effort);
     model.body.internal_force(residual, displacement, model.effort);
     residual.sadd(-1., load_factor, model.loads.force(1.));
+    free_residual = residual;
+    model.constraints.set_zero(free_residual);
   }
 
 
@@ -55,16 +60,20 @@ namespace Supple
         return;
       }
 
-    const Vector start  = displacement;
-    const double before = energy(start, load_factor);
-    const double slope  = free_residual * correction; // minus the derivative, positive
+    const Vector start            = displacement;
+    const double energy_before    = energy(start, load_factor);
+    const double imbalance_before = free_residual.l2_norm();
+    const double slope            = free_residual * correction; // minus the derivative, positive
     for (double part = 1.; part > 1e-3; part *= 0.5)
       {
         displacement = start;
         displacement.add(part, correction);
         update_residual(displacement, load_factor);
-        if (energy(displacement, load_factor) <=
-            before - 1e-4 * part * slope + 1e-13 * std::abs(before))
+
+        // Near the equilibrium the energy changes by less than it is accurate; the forces tell
+        // more.
+        if (energy(displacement, load_factor) <= energy_before - 1e-4 * part * slope ||
+            free_residual.l2_norm() <= imbalance_before)
           return;
       }
     throw ComputationError("no part of Newton's correction lowers the energy");
@@ -74,33 +83,55 @@ namespace Supple
   StepReport
   StaticEquilibrium::advance(State &state, const double load_factor, const bool observed)
   {
+    Vector &u          = state.block(0);
+    const Vector start = u;
+    StepReport report;
+    report.dt = load_factor - last_load_factor;
+    try
+      {
+        find_equilibrium(u, load_factor, report);
+      }
+    catch (...)
+      {
+        u = start;
+        model.body.update_rotations(u, model.effort);
+        throw;
+      }
+    last_load_factor = load_factor;
+
+    if (observed)
+      {
+        correction = residual;
+        correction *= -1.;
+        set_reactions(correction);
+        correction = u;
+        correction -= start;
+        if (model.loads.has_body_force())
+          report.load_work = load_factor * (model.loads.body_force(1.) * correction);
+      }
+    return report;
+  }
+
+
+  void
+  StaticEquilibrium::find_equilibrium(Vector &u, const double load_factor, StepReport &report)
+  {
     const TimeParameters &time = model.parameters.time;
     const bool linear          = model.body.rotation == RotationMethod::none;
-    Vector &u                  = state.block(0);
-    const Vector start         = u;
-    StepReport report;
-    report.dt        = load_factor - last_load_factor;
-    last_load_factor = load_factor;
 
     update_residual(u, load_factor);
     for (;;)
       {
-        free_residual = residual;
-        model.constraints.set_zero(free_residual);
-
-        // What is out of balance is small beside the loads and the reactions.
+        // What is out of balance is small beside the loads and the reactions, or beside round-off.
         const double size    = load_factor * model.loads.force(1.).l2_norm() + residual.l2_norm();
         const double balance = free_residual.l2_norm();
         if (!std::isfinite(balance))
-          {
-            u = start;
-            throw ComputationError("the forces are not finite any more");
-          }
-        if (linear ? report.newton_iterations == 1 : balance <= time.newton_tolerance * size)
-          break;
+          throw ComputationError("the forces are not finite any more");
+        if (linear ? report.newton_iterations == 1
+                   : balance <= time.newton_tolerance * size + force_accuracy)
+          return;
         if (report.newton_iterations == time.newton_limit)
           {
-            u = start;
             std::ostringstream text;
             text << "Newton's method is not done after " << time.newton_limit
                  << " iterations: the forces are out of balance by " << balance / size
@@ -117,19 +148,7 @@ namespace Supple
         report.linear_iterations += model.solver.solve(correction, free_residual);
         add_correction(u, load_factor);
         ++report.newton_iterations;
+        ++model.effort.newton_iterations;
       }
-    model.effort.newton_iterations += report.newton_iterations;
-
-    if (observed)
-      {
-        correction = residual;
-        correction *= -1.;
-        set_reactions(correction);
-        correction = u;
-        correction -= start;
-        if (model.loads.has_body_force())
-          report.load_work = load_factor * (model.loads.body_force(1.) * correction);
-      }
-    return report;
   }
 } // namespace Supple

@@ -101,7 +101,7 @@ namespace Supple
 
     if (model.implicit_operator.has_mass())
       json["error_estimate"] = {{"sum_of_local_errors", error_estimate},
-                                {"largest_displacement", largest_motion},
+                                {"largest_motion", largest_motion},
                                 {"relative",
                                  largest_motion > 0. ? error_estimate / largest_motion : 0.}};
     if (observed)

@@ -1,6 +1,7 @@
 #include <supple/error.h>
 #include <supple/tables.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <sstream>
 
@@ -40,7 +41,11 @@ namespace Supple
       std::ofstream stream(aside);
       stream << content << std::flush;
       if (!stream)
-        throw WriteError(file + " can't be written.");
+        {
+          stream.close();
+          std::remove(aside.c_str());
+          throw WriteError(file + " can't be written; is the disk full?");
+        }
     }
     std::filesystem::rename(aside, file);
   }

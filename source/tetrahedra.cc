@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Supple
 {
@@ -373,6 +374,21 @@ namespace Supple
       for (unsigned int lane = 0; lane < n_lanes; ++lane)
         for (unsigned int a = 0; a < 4; ++a)
           mass[batch.nodes[a][lane]] += 0.25 * batch.density[lane] * batch.volume[lane];
+  }
+
+
+  double
+  Tetrahedra::round_off_square() const
+  {
+    constexpr double epsilon = 8. * std::numeric_limits<double>::epsilon();
+    Pack sum(0.);
+    for (const Batch &batch : batches)
+      {
+        const Pack stress = epsilon * batch.owned * batch.volume * (batch.lambda + 2. * batch.mu);
+        for (const auto &g : batch.gradients)
+          sum += stress * stress * (g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+      }
+    return stdx::reduce(sum);
   }
 
 

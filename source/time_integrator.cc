@@ -14,9 +14,10 @@ namespace Supple
   std::unique_ptr<TimeIntegrator>
   TimeIntegrator::create(const Model &model, const Vector &displacement)
   {
+    model.body.update_rotations(displacement, model.effort);
     if (model.parameters.time.problem == TimeParameters::Problem::stationary)
       return std::make_unique<StaticEquilibrium>(model);
-    return std::make_unique<BackwardEuler>(model, displacement);
+    return std::make_unique<BackwardEuler>(model);
   }
 
 

@@ -39,6 +39,10 @@ refused([runner.BAR, "--frobnicate"], "--frobnicate", "no such option")
 refused([runner.BAR, runner.BAR], "one scene at a time")
 status, _, error = runner.run(runner.BAR, "--set")
 runner.check(status == 1 and "must follow" in error, error)
+status, _, error = runner.run(runner.BAR, "--output", "--quiet")
+runner.check(status == 1 and "must follow" in error and not pathlib.Path("--quiet").exists(), error)
+(folder / "empty.prm").write_text("\n")
+refused([folder / "empty.prm"], "is empty")
 
 line = next(i for i, text in enumerate(scene.splitlines(), 1) if "Young modulus" in text)
 with_text("Young modulus", "Yung modulus", f"scene.prm:{line}:", "Yung modulus")
@@ -60,17 +64,23 @@ for entry, values, words in [
         ("Mesh/Box cubes", ["2, 8, 0", "2, 8, 2, 2"], ["three values", "1 or greater"]),
         ("Corotation/Rotation", ["quaternion"], ["none, gram-schmidt, polar"]),
         ("Loads/Gravity", ["0, 0, nan"], ["three values"]),
-        ("Loads/Body force", ["x +; 0; 0"], ["expression"]),
+        ("Loads/Body force", ["x +; 0; 0"], ["Unexpected end"]),
         ("Loads/Body force", ["x; 0"], ["found 2", "3"]),
         ("Loads/Body force", ["w; 0; 0"], ["w", "x, y, z, t"]),
         ("Start/Velocity", ["1/0; 0; 0", "sqrt(-1); 0; 0"], ["finite"]),
         ("Constraints/Clamped boundaries", ["7"], ["no boundary 7", "3 (8 faces)"]),
         ("Constraints/Clamped boundaries", ["top"], ["boundary ids"]),
         ("Constraints/Clamped region", ["x > 100"], ["no vertex", "[0, 4] x [0, 12] x [0, 4]", "0, 1, 2, 3, 4, 5"]),
-        ("Constraints/Clamped region", ["x >"], ["expression"]),
+        ("Constraints/Clamped region", ["x >"], ["Unexpected end"]),
+        ("Constraints/Clamped region", ["sqrt(x - 50)"], ["finite"]),
+        ("Constraints/Clamped region", ["t > 1"], ["can't depend on the time"]),
+        ("Loads/Body force", ["1/x; 0; 0"], ["finite", "at time 0"]),
         ("Constraints/Boundaries held along y", ["9"], ["no boundary 9"]),
-        ("Probes/Points", ["tip 0, 0, 0", "tip: 0, 0", "a: 0, 0, 0; a: 1, 1, 1"], ["Probes/Points"]),
-        ("Probes/Boundaries", ["wall: x", "wall: 8"], ["Probes/Boundaries"]),
+        ("Probes/Points", ["tip 0, 0, 0"], ["name: value"]),
+        ("Probes/Points", ["tip: 0, 0", "tip: nan, 0, 0", "tip: x, y, z"], ["is no point"]),
+        ("Probes/Points", ["a: 0, 0, 0; a: 1, 1, 1"], ["'a' is given twice"]),
+        ("Probes/Boundaries", ["wall: x", "wall: 99999999999999999999", "wall: 4294967299"], ["no boundary id"]),
+        ("Probes/Boundaries", ["wall: 8"], ["no boundary 8"]),
         ("Probes/Regions", ["end: y > 13"], ["no vertex"])]:
     for value in values:
         with_setting(entry, value, *words)
@@ -79,7 +89,9 @@ refused([runner.BAR, "--set", "Material/Elastic constants=Lame", "--set", "Mater
          "Material/Lame mu=1e6"], "3 lambda + 2 mu")
 refused([runner.BAR, "--set", "Time/Problem=static", "--set", "Damping/Viscous=1"], "static", "damping")
 
-static = [runner.BAR, "--set", "Time/Problem=static", "--set", "Constraints/Clamped boundaries="]
+refused([runner.BAR, "--set", "Time/Problem=static"], "Start/Velocity", "static")
+
+static = [runner.BAR, "--set", "Time/Problem=static", "--set", "Start/Velocity=0; 0; 0", "--set", "Constraints/Clamped boundaries="]
 refused(static, "6 of its six rigid motions are free", "Hold a boundary")
 refused([*static, "--set", "Constraints/Boundaries held along y=3"], "3 of its six rigid motions are free")
 refused([*static, "--set", "Constraints/Clamped region=x == 0 && y == 0 && z == 0"], "3 of its six rigid")
@@ -88,6 +100,10 @@ refused([*static, "--set", "Constraints/Clamped region=x == 0 && y == 0 && z == 
 (folder / "file").write_text("")
 status, output, error = runner.run(runner.BAR, "--output", folder / "file" / "results")
 runner.check(status == 1 and "can't be written" in error and "--output" in error and output == "", error)
+
+# A process without any cell.
+status, _, error = runner.run(runner.BAR, "--set", "Mesh/Box cubes=1, 1, 1", "--set", "Probes/Points=", ranks=7)
+runner.check(status == 1 and error.count("7 processes are too many for 6 cells") == 1, error)
 
 # On two processes the message comes once.
 status, _, error = runner.run(runner.BAR, "--set", "Constraints/Clamped region=x > 100", ranks=2)

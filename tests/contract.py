@@ -73,6 +73,12 @@ runner.check((status, output, error) == (0, "", ""), f"--quiet says {output}{err
 status, output, _ = runner.run(runner.BAR, "--output", folder / "loud")
 runner.check("done: 100 steps" in output and "\r" not in output, output)
 
+# Where results go by default, and by the scene.
+here = subprocess.run([runner.SUPPLE, str(runner.BAR), "--quiet"], env=runner.ENVIRONMENT, cwd=folder, timeout=100)
+runner.check(here.returncode == 0 and (folder / "output" / "large" / "summary.json").exists(), "output/large")
+status, _, _ = runner.run(runner.BAR, "--quiet", "--set", f"Output/Folder={folder}/named")
+runner.check(status == 0 and (folder / "named" / "summary.json").exists(), "Output/Folder")
+
 # Ctrl-C: exit status 2, and complete files up to the last step.
 command = [runner.SUPPLE, str(runner.BAR), "--output", str(folder / "interrupted"), "--set", "Time/Steps=100000000",
            "--set", "Output/Frames=every"]
@@ -107,5 +113,22 @@ status, _, error = runner.run(runner.BAR, "--output", folder / "cg", "--set", "S
 runner.check(status == 2 and "Step 1 " in error and "3 iterations" in error, error)
 
 status, _, error = runner.run(runner.BAR, "--output", folder / "newton", "--set", "Time/Problem=static", "--set",
-                              "Time/Newton iterations=1", "--set", "Loads/Gravity=0, 0, -500")
-runner.check(status == 2 and "out of balance" in error and "load factor" in error, error)
+                              "Time/Newton iterations=1", "--set", "Loads/Gravity=0, 0, -500", "--set",
+                              "Start/Velocity=0; 0; 0", "--set", "Time/Steps=2")
+runner.check(status == 2 and "out of balance" in error and "load factor 0 to 0.5" in error, error)
+
+status, _, error = runner.run(runner.STATIC, "--output", folder / "locked", "--set",
+                              "Material/Poisson ratio=0.49999999999999")
+runner.check(status == 2 and "too badly conditioned" in error, error)
+
+# A disk that is full, or gone, in the middle of a run.
+full = runner.BAR, "--output", folder / "gone", "--set", "Time/Steps=100000000", "--set", "Output/Frames=every"
+process = subprocess.Popen([runner.SUPPLE, *map(str, full)], env=runner.ENVIRONMENT, stdout=subprocess.DEVNULL,
+                           stderr=subprocess.PIPE, text=True)
+while not (folder / "gone" / "solution" / "frame_0005.vtu").exists():
+    runner.check(process.poll() is None, "it ended by itself")
+    time.sleep(0.05)
+(folder / "gone" / "solution").rename(folder / "elsewhere")
+_, error = process.communicate(timeout=60)
+runner.check(process.returncode == 2 and "After step" in error and "can't be written" in error, error)
+runner.check(not list((folder / "elsewhere").glob("*.partial")), "a file is half written")

@@ -1,7 +1,7 @@
 // What must hold for linear and corotational tetrahedra whatever the mesh: here a box with
 // displaced inner vertices.
 
-#include <supple/mesh.h>
+#include <supple/serial_mesh.h>
 #include <supple/tetrahedra.h>
 
 #include <algorithm>

@@ -12,6 +12,7 @@ SUPPLE = sys.argv[1]
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 DATA = ROOT / "tests" / "data"
 BAR = ROOT / "parameters" / "bar" / "large.prm"
+STATIC = ROOT / "parameters" / "bar" / "static.prm"
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                    OMPI_MCA_pml="ob1", OMPI_MCA_btl="^tcp,uct,openib,ofi", OPENBLAS_NUM_THREADS="1")
 

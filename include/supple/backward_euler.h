@@ -21,7 +21,7 @@ namespace Supple
   class BackwardEuler : public TimeIntegrator
   {
   public:
-    BackwardEuler(const Model &model, const Vector &displacement);
+    explicit BackwardEuler(const Model &model);
 
     StepReport
     advance(State &state, double time, bool observed) override;
@@ -69,7 +69,8 @@ namespace Supple
     throw_what_failed();
 
     ARKode ode;
-    double gamma = 0.;
+    double ode_time = 0.; ///< ARKode's time [s]
+    double gamma    = 0.;
     State previous;
     Vector scratch, force;
     Vector velocity_increment;        ///< z_v of the last linear system

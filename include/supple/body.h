@@ -9,7 +9,6 @@
 #include <deal.II/base/partitioner.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/mapping_fe.h>
 
 #include <memory>
 
@@ -31,7 +30,6 @@ namespace Supple
     const Mesh &mesh;
     const RotationMethod rotation;
     const dealii::FESystem<3> fe;
-    const dealii::MappingFE<3> mapping;
     dealii::DoFHandler<3> dof_handler;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;

@@ -42,10 +42,11 @@ namespace Supple
 
 
   /**
-   * Energies, momenta and volumes of the body. In a dynamic problem with linear or polar rotations
+   * Energies, momenta and volumes of the body. In a dynamic problem
    *   total + dissipated - work
    * stays what it was at the start, up to the tolerance of the linear solver: dissipated is found
-   * from what each step expended, not from this balance.
+   * from what each step expended, not from this balance. It grows all the time with linear and
+   * polar rotations.
    */
   class Diagnostics
   {

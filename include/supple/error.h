@@ -27,10 +27,10 @@ namespace Supple
 
 
   /** The user stopped the computation by Ctrl-C or SIGTERM. Exit status 2, as for a failure. */
-  class InterruptedError : public std::runtime_error
+  class InterruptedError : public ComputationError
   {
   public:
-    using std::runtime_error::runtime_error;
+    using ComputationError::ComputationError;
   };
 
 

@@ -26,9 +26,6 @@ namespace Supple
     double
     value(const dealii::Point<3> &point, double time, unsigned int component = 0) const;
 
-    dealii::Tensor<1, 3>
-    vector_value(const dealii::Point<3> &point, double time) const;
-
     /** True for "0" and "0; 0; 0": nothing to evaluate. */
     bool
     is_zero() const

@@ -16,7 +16,7 @@ namespace Supple
 
     /** The solver a scene asks for; `auto` chooses by size and number of processes. */
     static std::unique_ptr<LinearSolver>
-    create(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort);
+    create(const ImplicitOperator &A, const Parameters &scene, Effort &effort);
 
     /**
      * To be called whenever A has changed.
@@ -53,7 +53,11 @@ namespace Supple
     virtual unsigned int
     do_solve(Vector &x, const Vector &b) = 0;
 
-    Vector residual;
+    /** Sets residual = b - A x. */
+    double
+    residual_norm(const Vector &x, const Vector &b);
+
+    Vector residual, correction;
   };
 
 

@@ -1,7 +1,8 @@
 #ifndef supple_mesh_h
 #define supple_mesh_h
 
-#include <supple/parameters.h>
+#include <supple/mesh_check.h>
+#include <supple/serial_mesh.h>
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/distributed/fully_distributed_tria.h>
@@ -12,34 +13,12 @@
 
 namespace Supple
 {
-  /** A mesh of tetrahedra as plain lists, the same on every process. */
-  struct SerialMesh
-  {
-    struct BoundaryTriangle
-    {
-      std::array<unsigned int, 3> vertices;
-      unsigned int boundary_id;
-    };
-
-    std::vector<dealii::Point<3>> vertices;         ///< [m]
-    std::vector<std::array<unsigned int, 4>> cells; ///< positively oriented
-    std::vector<BoundaryTriangle> boundary;
-  };
-
-
-  /**
-   * A box of cubes, each cut into six tetrahedra which share its diagonal from corner 000 to corner
-   * 111 (Kuhn 1960). Vertices and cubes are numbered with x fastest, then y, then z.
-   */
-  SerialMesh
-  box_mesh(const MeshParameters &parameters);
-
-
   /** The mesh of the body at rest, each cell on one process. */
   class Mesh
   {
   public:
-    Mesh(const MeshParameters &parameters, MPI_Comm communicator);
+    /** @throws InputError */
+    Mesh(const Parameters &parameters, MPI_Comm communicator);
 
     const MPI_Comm communicator;
     dealii::parallel::fullydistributed::Triangulation<3> triangulation;
@@ -53,6 +32,8 @@ namespace Supple
     double volume;                                   ///< [m^3]
     dealii::BoundingBox<3> bounding_box;             ///< [m]
     std::map<unsigned int, unsigned int> boundaries; ///< boundary id -> number of its faces
+    std::map<unsigned int, unsigned int> materials;  ///< material id -> number of its cells
+    MeshReport report;
 
     /** Length of the bounding box's diagonal [m]. */
     double

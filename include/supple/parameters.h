@@ -14,14 +14,39 @@
 
 namespace Supple
 {
+  struct Parameters;
+
   struct MeshParameters
   {
+    enum class Shape
+    {
+      box,
+      hollow_cylinder,
+      file
+    };
+
+    Shape shape = Shape::box;
+
     dealii::Point<3> origin{0., 0., 0.};
     dealii::Point<3> size{1., 1., 1.};
     std::array<unsigned int, 3> cubes{{4, 4, 4}};
 
+    double inner_radius  = 0.3;
+    double outer_radius  = 0.4;
+    double height        = 1.;
+    unsigned int sectors = 15;
+    unsigned int rings   = 6;
+    unsigned int layers  = 1;
+
+    std::string file; ///< as written; relative to the folder of the scene
+    double scale = 1.;
+    std::string boundary_regions;
+
     void
     declare(dealii::ParameterHandler &prm);
+
+    void
+    check(const Parameters &parameters) const;
   };
 
 
@@ -201,7 +226,8 @@ namespace Supple
     OutputParameters output;
     ProbeParameters probes;
 
-    std::string scene_name; ///< of the file, without folder and ending
+    std::string scene_name;   ///< of the file, without folder and ending
+    std::string scene_folder; ///< where files that the scene names are looked for
 
     /**
      * Reads a scene file and applies @p overrides ("Section/Entry=value") on top.
@@ -209,6 +235,11 @@ namespace Supple
      */
     static Parameters
     read(const std::string &file, const std::vector<std::string> &overrides = {});
+
+    /** Where results go unless the command line says otherwise: output/ and the name of the scene.
+     */
+    std::string
+    output_folder() const;
 
     /** Where an entry ("Section/Entry") got its value, and the value: to begin a message with. */
     std::string

@@ -11,9 +11,9 @@ namespace Supple
   class Progress
   {
   public:
-    Progress(unsigned int n_steps, bool wanted);
+    Progress(unsigned int n_steps, bool wanted, bool plain);
 
-    /** Called after each step; writes a few times a second. */
+    /** Called after each step; writes at most a few times a second. */
     void
     update(unsigned int step);
 
@@ -26,9 +26,11 @@ namespace Supple
 
     const unsigned int n_steps;
     const bool active;
+    const bool plain;
     const Clock::time_point start;
     Clock::time_point last;
-    bool shown = false;
+    bool shown              = false;
+    unsigned int next_tenth = 1;
   };
 
 

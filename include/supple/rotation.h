@@ -123,6 +123,10 @@ namespace Supple
   }
 
 
+  /** What is more than this is no rotation. */
+  constexpr double largest_orthogonality_defect = 1e-22;
+
+
   /** Replaces those lanes of @p R which are no rotation by nearest_rotation(). */
   void
   repair_rotations(const Matrix3<Pack> &F, Matrix3<Pack> &R);
@@ -144,8 +148,7 @@ namespace Supple
           R = closed_form_rotation(F);
           break;
       }
-    constexpr double tolerance = 1e-22;
-    if (!std::experimental::all_of(orthogonality_defect(R) <= tolerance))
+    if (!std::experimental::all_of(orthogonality_defect(R) <= largest_orthogonality_defect))
       repair_rotations(F, R);
     return R;
   }

@@ -24,7 +24,7 @@ namespace Supple
      * @param quiet  no words on the screen
      * @throws InputError
      */
-    Simulation(const Parameters &parameters,
+    Simulation(const Parameters &scene,
                const std::string &folder,
                bool quiet,
                MPI_Comm communicator);
@@ -38,6 +38,10 @@ namespace Supple
     print_description() const;
 
   private:
+    /** What the integrator works with. */
+    Model
+    model();
+
     void
     create_initial_state();
 
@@ -91,7 +95,8 @@ namespace Supple
     unsigned int step = 0;
     Measurement now;
     double error_estimate = 0.; ///< sum of the local errors [m]
-    double largest_motion = 0.; ///< largest displacement of a vertex so far [m]
+    Vector start_displacement;
+    double largest_motion = 0.; ///< of a vertex from its place at the start, so far [m]
     double setup_seconds  = 0.;
   };
 } // namespace Supple

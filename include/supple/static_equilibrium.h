@@ -39,6 +39,11 @@ namespace Supple
     void
     add_correction(Vector &displacement, double load_factor);
 
+    /** Newton's iterations of one load step. */
+    void
+    find_equilibrium(Vector &displacement, double load_factor, StepReport &report);
+
+    double force_accuracy   = 0.; ///< what round-off leaves of forces in balance [N]
     bool prepared           = false;
     double last_load_factor = 0.;
     Vector residual, correction, free_residual;

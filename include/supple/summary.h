@@ -16,7 +16,7 @@ namespace Supple
     double setup_seconds  = 0.;
     double run_seconds    = 0.;
     double error_estimate = 0.; ///< [m]
-    double largest_motion = 0.; ///< [m]
+    double largest_motion = 0.; ///< of a vertex from its place at the start [m]
     unsigned int frames   = 0;
     bool history          = false;
     bool probes           = false;

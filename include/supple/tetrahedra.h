@@ -108,6 +108,11 @@ namespace Supple
     void
     add_load(const double *force_density, double *force) const;
 
+    /** Sum over owned cells and their nodes of (round-off in the node's force)^2 [N^2], at strains
+     * of order one. */
+    double
+    round_off_square() const;
+
     /** @p velocity may be null: then nothing moves. */
     CellSums
     sums(const double *displacement, const double *velocity) const;

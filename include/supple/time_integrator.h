@@ -46,7 +46,8 @@ namespace Supple
   public:
     virtual ~TimeIntegrator() = default;
 
-    /** Backward Euler, or the steps of a static problem. */
+    /** Backward Euler, or the steps of a static problem; the rotations become those of the
+     * displacement. */
     static std::unique_ptr<TimeIntegrator>
     create(const Model &model, const Vector &displacement);
 

@@ -1,8 +1,12 @@
 #ifndef supple_vector_h
 #define supple_vector_h
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/lac/la_parallel_block_vector.h>
 #include <deal.II/lac/la_parallel_vector.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace Supple
 {
@@ -57,6 +61,26 @@ namespace Supple
     add(vector.begin());
     if (vector.get_partitioner()->n_mpi_processes() > 1)
       vector.zero_out_ghost_values();
+  }
+
+
+  /** The largest length, over all vertices, of the difference of two vectors. */
+  inline double
+  largest_vertex_distance(const Vector &a, const Vector &b)
+  {
+    double square = 0.;
+    for (unsigned int first = 0; first + 2 < a.locally_owned_size(); first += 3)
+      {
+        double sum = 0.;
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            const double difference = a.local_element(first + i) - b.local_element(first + i);
+            sum += difference * difference;
+          }
+        square = std::max(square, sum);
+      }
+    return std::sqrt(
+      dealii::Utilities::MPI::max(square, a.get_partitioner()->get_mpi_communicator()));
   }
 } // namespace Supple
 

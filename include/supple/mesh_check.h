@@ -1,0 +1,45 @@
+#ifndef supple_mesh_check_h
+#define supple_mesh_check_h
+
+#include <supple/serial_mesh.h>
+
+#include <string>
+#include <vector>
+
+namespace Supple
+{
+  /** What was found when a mesh was looked through. */
+  struct MeshReport
+  {
+    unsigned int repaired        = 0; ///< cells whose orientation was negative
+    unsigned int slivers         = 0; ///< cells of a quality below 0.1
+    unsigned int unused_vertices = 0; ///< in no cell
+    unsigned int double_vertices = 0; ///< at the place of another one
+    double worst_quality         = 1.;
+    std::size_t worst_cell       = 0;
+    dealii::Point<3> worst_position;
+
+    unsigned int n_pieces = 0;
+    std::vector<unsigned int> piece; ///< of each vertex; n_pieces for an unused one
+
+    std::vector<std::string> warnings; ///< what the user should know, in sentences
+  };
+
+
+  /**
+   * Looks a mesh through and mends what can be mended: negative cells are turned around, and the
+   * boundary gets a triangle for each face with one cell (id 0 where none was given).
+   * @throws InputError beginning with @p origin for flat cells, vertices that do not exist, and
+   * faces with more than two cells
+   */
+  MeshReport
+  check_mesh(SerialMesh &mesh, const std::string &origin);
+
+
+  /** Mean ratio of a tetrahedron: 12 (3 V)^(2/3) / sum of squared edges; 1 if regular, 0 if flat.
+   */
+  double
+  quality(const SerialMesh &mesh, std::size_t cell);
+} // namespace Supple
+
+#endif

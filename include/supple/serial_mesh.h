@@ -1,0 +1,75 @@
+#ifndef supple_serial_mesh_h
+#define supple_serial_mesh_h
+
+#include <supple/parameters.h>
+
+#include <deal.II/base/point.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace Supple
+{
+  /** A mesh of tetrahedra as plain lists, the same on every process. */
+  struct SerialMesh
+  {
+    struct BoundaryTriangle
+    {
+      std::array<unsigned int, 3> vertices;
+      unsigned int boundary_id;
+    };
+
+    std::vector<dealii::Point<3>> vertices; ///< [m]
+    std::vector<std::array<unsigned int, 4>> cells;
+    std::vector<unsigned int> materials; ///< of the cells
+    std::vector<BoundaryTriangle> boundary;
+
+    /** Signed volume of a cell [m^3], positive if it is oriented as it should be. */
+    double
+    volume(std::size_t cell) const;
+  };
+
+
+  /** The mesh a scene asks for: generated or read, in metres, positively oriented, with its
+   * boundary ids. */
+  SerialMesh
+  make_serial_mesh(const Parameters &parameters);
+
+
+  /**
+   * A box of cubes, each cut into six tetrahedra which share its diagonal from corner 000 to corner
+   * 111 (Kuhn 1960). Vertices and cubes are numbered with x fastest, then y, then z. Boundary ids:
+   * 0, 1 (x), 2, 3 (y), 4, 5 (z).
+   */
+  SerialMesh
+  box_mesh(const MeshParameters &parameters);
+
+
+  /**
+   * A hollow cylinder about the z axis, centred at the origin (Valera 2002): n sectors, n_rings
+   * sections along the axis, one or more layers through the wall.
+   *
+   *      o---o---o      outer circle, half a sector ahead
+   *     / \ / \ /
+   *    o---o---o        inner circle
+   *
+   * Between two sections each of these triangles makes a wedge, cut into three tetrahedra. Vertices
+   * are numbered section by section from the bottom, in each circle by circle from the inside.
+   * Boundary ids: 0 inner, 1 outer, 2 bottom, 3 top.
+   */
+  SerialMesh
+  hollow_cylinder_mesh(const MeshParameters &parameters);
+
+
+  /**
+   * Reads a mesh by Gmsh: .msh (1, 2.2, 4.1, ASCII or binary), legacy .vtk, .unv, .mesh, .bdf.
+   * Physical volumes become material ids and physical surfaces boundary ids; without them the
+   * material is 0 and the whole surface boundary 0.
+   * @throws InputError in words that help if there are no tetrahedra, or Gmsh can't read the file
+   */
+  SerialMesh
+  read_mesh(const std::string &file, const std::string &origin);
+} // namespace Supple
+
+#endif

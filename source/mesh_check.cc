@@ -1,0 +1,238 @@
+#include <supple/mesh_check.h>
+
+#include <supple/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <sstream>
+#include <unordered_map>
+
+namespace Supple
+{
+  using dealii::Point;
+
+  namespace
+  {
+    using Face = std::array<unsigned int, 3>;
+
+    struct FaceHash
+    {
+      std::size_t
+      operator()(const Face &face) const
+      {
+        return (face[0] * std::size_t(73856093)) ^ (face[1] * std::size_t(19349663)) ^
+               (face[2] * std::size_t(83492791));
+      }
+    };
+
+
+    Face
+    sorted(Face face)
+    {
+      std::sort(face.begin(), face.end());
+      return face;
+    }
+
+
+    Point<3>
+    centre(const SerialMesh &mesh, const std::size_t cell)
+    {
+      Point<3> sum;
+      for (const unsigned int vertex : mesh.cells[cell])
+        sum += mesh.vertices[vertex] / 4.;
+      return sum;
+    }
+
+
+    std::string
+    place(const SerialMesh &mesh, const std::size_t cell)
+    {
+      std::ostringstream text;
+      const Point<3> x = centre(mesh, cell);
+      text << "cell " << cell << " at (" << x[0] << ", " << x[1] << ", " << x[2] << ")";
+      return text.str();
+    }
+
+
+    void
+    check_cells(SerialMesh &mesh, const std::string &origin, MeshReport &report)
+    {
+      std::vector<std::size_t> flat;
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        {
+          for (const unsigned int vertex : mesh.cells[c])
+            if (vertex >= mesh.vertices.size())
+              throw InputError(origin + ": cell " + std::to_string(c) + " has the vertex " +
+                               std::to_string(vertex) + ", but there are only " +
+                               std::to_string(mesh.vertices.size()) + ".");
+          if (mesh.volume(c) < 0.)
+            {
+              std::swap(mesh.cells[c][1], mesh.cells[c][2]);
+              ++report.repaired;
+            }
+          const double q = quality(mesh, c);
+          if (!(q > 1e-6))
+            flat.push_back(c);
+          if (q < 0.1)
+            ++report.slivers;
+          if (c == 0 || q < report.worst_quality)
+            {
+              report.worst_quality  = q;
+              report.worst_cell     = c;
+              report.worst_position = centre(mesh, c);
+            }
+        }
+      if (!flat.empty())
+        throw InputError(origin + ": " + std::to_string(flat.size()) +
+                         " cell(s) are flat, that is without volume; the first is " +
+                         place(mesh, flat[0]) + ". Mesh the body again, or optimize the mesh.");
+    }
+
+
+    /** Sorts out which faces are the boundary and what id each has. */
+    void
+    check_faces(SerialMesh &mesh, const std::string &origin, MeshReport &report)
+    {
+      std::unordered_map<Face, unsigned int, FaceHash> n_cells;
+      n_cells.reserve(3 * mesh.cells.size());
+      const auto face_of = [&](const std::size_t c, const unsigned int opposite) {
+        Face face;
+        for (unsigned int a = 0, f = 0; a < 4; ++a)
+          if (a != opposite)
+            face[f++] = mesh.cells[c][a];
+        return face;
+      };
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        for (unsigned int opposite = 0; opposite < 4; ++opposite)
+          if (++n_cells[sorted(face_of(c, opposite))] > 2)
+            throw InputError(origin + ": a face has three cells or more; one of them is " +
+                             place(mesh, c) + ". Cells overlap there, or are given twice.");
+
+      std::map<Face, unsigned int> given;
+      unsigned int inside = 0, twice = 0, strange = 0;
+      for (const auto &triangle : mesh.boundary)
+        {
+          const Face key   = sorted(triangle.vertices);
+          const auto found = n_cells.find(key);
+          if (found == n_cells.end())
+            ++strange;
+          else if (found->second == 2)
+            ++inside;
+          else if (!given.emplace(key, triangle.boundary_id).second &&
+                   given[key] != triangle.boundary_id)
+            ++twice;
+        }
+      const auto warn = [&](const unsigned int n, const std::string &text) {
+        if (n > 0)
+          report.warnings.push_back(std::to_string(n) + " " + text);
+      };
+      warn(inside, "triangle(s) of physical surfaces lie inside the body and are not used.");
+      warn(twice, "triangle(s) belong to two physical surfaces; the first one counts.");
+      warn(strange, "triangle(s) are no face of a cell and are not used.");
+
+      mesh.boundary.clear();
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        for (unsigned int opposite = 0; opposite < 4; ++opposite)
+          {
+            const Face face = face_of(c, opposite);
+            const Face key  = sorted(face);
+            if (n_cells[key] == 1)
+              {
+                const auto found = given.find(key);
+                mesh.boundary.push_back({face, found == given.end() ? 0 : found->second});
+              }
+          }
+    }
+
+
+    void
+    find_pieces(const SerialMesh &mesh, MeshReport &report)
+    {
+      std::vector<unsigned int> root(mesh.vertices.size());
+      std::iota(root.begin(), root.end(), 0u);
+      const auto find = [&](unsigned int v) {
+        while (root[v] != v)
+          v = root[v] = root[root[v]];
+        return v;
+      };
+      std::vector<bool> used(mesh.vertices.size());
+      for (const auto &cell : mesh.cells)
+        for (const unsigned int vertex : cell)
+          {
+            used[vertex]       = true;
+            root[find(vertex)] = find(cell[0]);
+          }
+
+      std::map<unsigned int, unsigned int> number;
+      report.piece.resize(mesh.vertices.size());
+      for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
+        if (used[v])
+          report.piece[v] = number.emplace(find(v), number.size()).first->second;
+        else
+          ++report.unused_vertices;
+      report.n_pieces = number.size();
+      for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
+        if (!used[v])
+          report.piece[v] = report.n_pieces;
+
+      std::vector<unsigned int> order;
+      for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
+        if (used[v])
+          order.push_back(v);
+      const auto coordinates = [&](const unsigned int v) {
+        return std::array<double, 3>{
+          {mesh.vertices[v][0], mesh.vertices[v][1], mesh.vertices[v][2]}};
+      };
+      std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
+        return coordinates(a) < coordinates(b);
+      });
+      for (std::size_t i = 1; i < order.size(); ++i)
+        if (coordinates(order[i]) == coordinates(order[i - 1]))
+          ++report.double_vertices;
+    }
+  } // namespace
+
+
+  double
+  quality(const SerialMesh &mesh, const std::size_t cell)
+  {
+    double squares = 0.;
+    for (unsigned int a = 0; a < 4; ++a)
+      for (unsigned int b = 0; b < a; ++b)
+        squares +=
+          mesh.vertices[mesh.cells[cell][a]].distance_square(mesh.vertices[mesh.cells[cell][b]]);
+    return 12. * std::cbrt(std::pow(3. * std::abs(mesh.volume(cell)), 2)) / squares;
+  }
+
+
+  MeshReport
+  check_mesh(SerialMesh &mesh, const std::string &origin)
+  {
+    MeshReport report;
+    check_cells(mesh, origin, report);
+    check_faces(mesh, origin, report);
+    find_pieces(mesh, report);
+
+    const auto warn = [&](const bool wrong, const std::string &text) {
+      if (wrong)
+        report.warnings.push_back(text);
+    };
+    warn(report.repaired > 0,
+         std::to_string(report.repaired) + " inverted cell(s) were turned around.");
+    warn(report.slivers > 0,
+         std::to_string(report.slivers) +
+           " cell(s) are slivers of a quality below 0.1; the worst is " +
+           place(mesh, report.worst_cell) + ".");
+    warn(report.unused_vertices > 0,
+         std::to_string(report.unused_vertices) + " vertices are in no cell.");
+    warn(report.double_vertices > 0,
+         std::to_string(report.double_vertices) +
+           " vertices lie at the place of another one: the body may be cut open there.");
+    warn(report.n_pieces > 1,
+         "The body is in " + std::to_string(report.n_pieces) +
+           " pieces that do not hang together.");
+    return report;
+  }
+} // namespace Supple

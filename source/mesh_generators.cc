@@ -1,0 +1,165 @@
+#include <supple/serial_mesh.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Supple
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  double
+  SerialMesh::volume(const std::size_t cell) const
+  {
+    const Point<3> &origin = vertices[cells[cell][0]];
+    return dealii::cross_product_3d(vertices[cells[cell][1]] - origin,
+                                    vertices[cells[cell][2]] - origin) *
+           (vertices[cells[cell][3]] - origin) / 6.;
+  }
+
+
+  namespace
+  {
+    /** Appends a cell, turned around if its orientation is negative. */
+    void
+    add_cell(SerialMesh &mesh, const std::array<unsigned int, 4> &vertices)
+    {
+      mesh.cells.push_back(vertices);
+      mesh.materials.push_back(0);
+      if (mesh.volume(mesh.cells.size() - 1) < 0.)
+        std::swap(mesh.cells.back()[1], mesh.cells.back()[2]);
+    }
+  } // namespace
+
+
+  SerialMesh
+  box_mesh(const MeshParameters &parameters)
+  {
+    SerialMesh mesh;
+    const std::array<unsigned int, 3> &n     = parameters.cubes;
+    const std::array<unsigned int, 3> stride = {{1, n[0] + 1, (n[0] + 1) * (n[1] + 1)}};
+
+    for (unsigned int k = 0; k <= n[2]; ++k)
+      for (unsigned int j = 0; j <= n[1]; ++j)
+        for (unsigned int i = 0; i <= n[0]; ++i)
+          mesh.vertices.emplace_back(parameters.origin[0] + parameters.size[0] * i / n[0],
+                                     parameters.origin[1] + parameters.size[1] * j / n[1],
+                                     parameters.origin[2] + parameters.size[2] * k / n[2]);
+
+    // Corner c of a cube lies at its 0/1-coordinates (c & 1, c & 2, c & 4).
+    const std::array<std::array<unsigned int, 2>, 6> paths = {
+      {{{1, 3}}, {{1, 5}}, {{2, 3}}, {{2, 6}}, {{4, 5}}, {{4, 6}}}};
+
+    std::array<unsigned int, 3> cube;
+    const auto vertex = [&](const unsigned int corner) {
+      unsigned int index = 0;
+      for (unsigned int d = 0; d < 3; ++d)
+        index += (cube[d] + ((corner >> d) & 1)) * stride[d];
+      return index;
+    };
+    for (cube[2] = 0; cube[2] < n[2]; ++cube[2])
+      for (cube[1] = 0; cube[1] < n[1]; ++cube[1])
+        for (cube[0] = 0; cube[0] < n[0]; ++cube[0])
+          for (const auto &path : paths)
+            {
+              add_cell(mesh, {{vertex(0), vertex(path[0]), vertex(path[1]), vertex(7)}});
+
+              // Two of its faces lie in a side of the cube: those opposite to corners 0 and 7.
+              for (const std::array<unsigned int, 3> &corners :
+                   {std::array<unsigned int, 3>{{path[0], path[1], 7}},
+                    std::array<unsigned int, 3>{{0, path[0], path[1]}}})
+                for (unsigned int d = 0; d < 3; ++d)
+                  {
+                    const unsigned int side = corners[2] == 7 ? 1 : 0;
+                    if (cube[d] == (side == 0 ? 0 : n[d] - 1) &&
+                        std::all_of(corners.begin(), corners.end(), [&](const unsigned int c) {
+                          return ((c >> d) & 1) == side;
+                        }))
+                      mesh.boundary.push_back(
+                        {{{vertex(corners[0]), vertex(corners[1]), vertex(corners[2])}},
+                         2 * d + side});
+                  }
+            }
+    return mesh;
+  }
+
+
+  SerialMesh
+  hollow_cylinder_mesh(const MeshParameters &parameters)
+  {
+    SerialMesh mesh;
+    const unsigned int n        = parameters.sectors;
+    const unsigned int n_layers = parameters.layers;
+    const unsigned int n_rings  = parameters.rings;
+
+    for (unsigned int ring = 0; ring < n_rings; ++ring)
+      for (unsigned int circle = 0; circle <= n_layers; ++circle)
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const double radius =
+              parameters.inner_radius +
+              (parameters.outer_radius - parameters.inner_radius) * circle / n_layers;
+            const double angle = 2. * M_PI * (i + 0.5 * (circle % 2)) / n;
+            mesh.vertices.emplace_back(radius * std::cos(angle),
+                                       radius * std::sin(angle),
+                                       parameters.height * (double(ring) / (n_rings - 1) - 0.5));
+          }
+    const auto vertex =
+      [&](const unsigned int ring, const unsigned int circle, const unsigned int i) {
+        return (ring * (n_layers + 1) + circle) * n + i % n;
+      };
+    const auto add_wedge = [&](const std::array<unsigned int, 3> &low,
+                               const std::array<unsigned int, 3> &high,
+                               const bool outer) {
+      if (!outer)
+        {
+          add_cell(mesh, {{low[0], high[0], low[1], low[2]}});
+          add_cell(mesh, {{high[0], high[1], low[1], low[2]}});
+          add_cell(mesh, {{high[0], high[1], low[2], high[2]}});
+        }
+      else
+        {
+          add_cell(mesh, {{low[0], low[1], high[2], low[2]}});
+          add_cell(mesh, {{low[0], low[1], high[1], high[2]}});
+          add_cell(mesh, {{low[0], high[1], high[0], high[2]}});
+        }
+    };
+
+    for (unsigned int ring = 0; ring + 1 < n_rings; ++ring)
+      for (unsigned int layer = 0; layer < n_layers; ++layer)
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            // Layers turn alternately ahead and back, so that their cuts fit to each other.
+            const unsigned int next = layer % 2 == 0 ? i + 1 : i + n - 1;
+            const auto corners      = [&](const unsigned int section, const bool outer) {
+              const unsigned int inner_next = vertex(section, layer, next);
+              const unsigned int outer_here = vertex(section, layer + 1, i);
+              return outer ? std::array<unsigned int, 3>{{vertex(section, layer + 1, next),
+                                                          outer_here,
+                                                          inner_next}}
+                                : std::array<unsigned int, 3>{
+                               {inner_next, vertex(section, layer, i), outer_here}};
+            };
+            for (const bool outer : {false, true})
+              {
+                const auto low = corners(ring, outer), high = corners(ring + 1, outer);
+                add_wedge(low, high, outer);
+                if (ring == 0)
+                  mesh.boundary.push_back({low, 2});
+                if (ring + 2 == n_rings)
+                  mesh.boundary.push_back({high, 3});
+                if (!outer && layer == 0)
+                  {
+                    mesh.boundary.push_back({{{low[0], high[0], low[1]}}, 0});
+                    mesh.boundary.push_back({{{high[0], high[1], low[1]}}, 0});
+                  }
+                if (outer && layer + 1 == n_layers)
+                  {
+                    mesh.boundary.push_back({{{low[0], low[1], high[1]}}, 1});
+                    mesh.boundary.push_back({{{low[0], high[1], high[0]}}, 1});
+                  }
+              }
+          }
+    return mesh;
+  }
+} // namespace Supple

@@ -1,0 +1,247 @@
+#include <supple/error.h>
+#include <supple/serial_mesh.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <gmsh.h>
+#include <map>
+
+namespace Supple
+{
+  namespace
+  {
+    constexpr int gmsh_triangle = 2, gmsh_tetrahedron = 4, gmsh_quadratic_tetrahedron = 11;
+
+    /** Gmsh's library is a global thing: it is there while one of these lives. */
+    class GmshSession
+    {
+    public:
+      explicit GmshSession(const std::string &file)
+      {
+        gmsh::initialize(0, nullptr, false);
+        gmsh::option::setNumber("General.Terminal", 0);
+        gmsh::logger::start();
+        try
+          {
+            gmsh::open(file);
+          }
+        catch (...)
+          {
+            const std::string reason = last_complaint();
+            gmsh::finalize();
+            throw InputError("Gmsh can't read it" + reason);
+          }
+      }
+
+      ~GmshSession()
+      {
+        gmsh::finalize();
+      }
+
+      GmshSession(const GmshSession &) = delete;
+      GmshSession &
+      operator=(const GmshSession &) = delete;
+
+      static std::string
+      last_complaint()
+      {
+        std::vector<std::string> lines;
+        gmsh::logger::get(lines);
+        for (auto line = lines.rbegin(); line != lines.rend(); ++line)
+          if (line->rfind("Error", 0) == 0)
+            return " (" + *line + ")";
+        return "";
+      }
+    };
+
+
+    void
+    refuse_other_formats(const std::string &file)
+    {
+      const std::string ending                = std::filesystem::path(file).extension().string();
+      const std::vector<std::string> readable = {".msh", ".vtk", ".unv", ".mesh", ".bdf", ".nas"};
+      const std::vector<std::string> convertible = {
+        ".vtu", ".inp", ".ele", ".node", ".e", ".xdmf", ".med", ".cgns", ".f3grid", ".avs"};
+      if (std::find(readable.begin(), readable.end(), ending) != readable.end())
+        return;
+      if (ending == ".stl" || ending == ".obj" || ending == ".ply" || ending == ".off")
+        throw InputError(
+          "a " + ending +
+          " file holds a surface, which has no volume. Fill it with tetrahedra first, "
+          "for example in Gmsh (Create Volume, Mesh 3D), and save it as .msh.");
+      if (std::find(convertible.begin(), convertible.end(), ending) != convertible.end())
+        throw InputError(
+          "this format is not read. Convert it (package meshio-tools) by\n  meshio convert " +
+          file + " " + std::filesystem::path(file).stem().string() + ".msh --output-format gmsh22");
+      throw InputError("the ending " + ending +
+                       " is not known. Read are .msh (Gmsh), .vtk, .unv, .mesh, .bdf and .nas.");
+    }
+
+
+    /** The model entities of each physical group of a dimension; one group -1 with all if there are
+     * none. */
+    std::map<int, std::vector<int>>
+    physical_groups(const int dimension)
+    {
+      std::map<int, std::vector<int>> groups;
+      gmsh::vectorpair dimension_tags;
+      gmsh::model::getPhysicalGroups(dimension_tags, dimension);
+      for (const auto &[dim, tag] : dimension_tags)
+        gmsh::model::getEntitiesForPhysicalGroup(dim, tag, groups[tag]);
+      return groups;
+    }
+
+
+    /** Elements an ASCII .msh file of version 1 or 2 announces; Gmsh drops those whose number is
+     * taken. */
+    std::size_t
+    announced_elements(const std::string &file)
+    {
+      std::ifstream stream(file);
+      std::string line;
+      while (std::getline(stream, line))
+        {
+          line = dealii::Utilities::trim(line);
+          if (line == "$MeshFormat")
+            {
+              double version = 0.;
+              int binary     = 0;
+              stream >> version >> binary;
+              if (version >= 3. || binary != 0)
+                return 0;
+            }
+          if (line == "$Elements" || line == "$ELM")
+            {
+              std::size_t n = 0;
+              stream >> n;
+              return n;
+            }
+        }
+      return 0;
+    }
+
+
+    std::size_t
+    loaded_elements()
+    {
+      std::vector<int> types;
+      gmsh::model::mesh::getElementTypes(types);
+      std::size_t n = 0;
+      for (const int type : types)
+        {
+          std::vector<std::size_t> tags, nodes;
+          gmsh::model::mesh::getElementsByType(type, tags, nodes);
+          n += tags.size();
+        }
+      return n;
+    }
+
+
+    /** Vertices of all elements of a type on an entity (-1: on all), as positions in the list of
+     * nodes. */
+    std::vector<std::size_t>
+    elements(const int type, const int entity, const std::map<std::size_t, std::size_t> &position)
+    {
+      std::vector<std::size_t> element_tags, node_tags, positions;
+      gmsh::model::mesh::getElementsByType(type, element_tags, node_tags, entity);
+      for (const std::size_t tag : node_tags)
+        positions.push_back(position.at(tag));
+      return positions;
+    }
+
+
+    void
+    read_cells(SerialMesh &mesh, const std::map<std::size_t, std::size_t> &position)
+    {
+      // All cells in the order of the file; those of a physical volume get its number.
+      std::vector<std::size_t> tags, nodes;
+      gmsh::model::mesh::getElementsByType(gmsh_tetrahedron, tags, nodes);
+      std::map<std::size_t, unsigned int> material;
+      for (const auto &[group, entities] : physical_groups(3))
+        for (const int entity : entities)
+          {
+            std::vector<std::size_t> group_tags, group_nodes;
+            gmsh::model::mesh::getElementsByType(gmsh_tetrahedron, group_tags, group_nodes, entity);
+            for (const std::size_t tag : group_tags)
+              material.emplace(tag, group);
+          }
+      for (std::size_t c = 0; c < tags.size(); ++c)
+        {
+          std::array<unsigned int, 4> cell;
+          for (unsigned int a = 0; a < 4; ++a)
+            cell[a] = position.at(nodes[4 * c + a]);
+          mesh.cells.push_back(cell);
+          const auto found = material.find(tags[c]);
+          mesh.materials.push_back(found == material.end() ? 0 : found->second);
+        }
+    }
+
+
+    void
+    read_boundary(SerialMesh &mesh, const std::map<std::size_t, std::size_t> &position)
+    {
+      for (const auto &[group, entities] : physical_groups(2))
+        for (const int entity : entities)
+          {
+            const auto triangles = elements(gmsh_triangle, entity, position);
+            for (std::size_t t = 0; t < triangles.size(); t += 3)
+              mesh.boundary.push_back({{{static_cast<unsigned int>(triangles[t]),
+                                         static_cast<unsigned int>(triangles[t + 1]),
+                                         static_cast<unsigned int>(triangles[t + 2])}},
+                                       static_cast<unsigned int>(group)});
+          }
+    }
+  } // namespace
+
+
+  SerialMesh
+  read_mesh(const std::string &file, const std::string &origin)
+  {
+    try
+      {
+        if (!std::filesystem::is_regular_file(file))
+          throw InputError("there is no such file.");
+        refuse_other_formats(file);
+        const GmshSession session(file);
+
+        const std::size_t announced = announced_elements(file), loaded = loaded_elements();
+        if (loaded < announced)
+          throw InputError(
+            "the file announces " + std::to_string(announced) + " elements, of which only " +
+            std::to_string(loaded) +
+            " can be read. Each element needs a number of its own; meshio convert (package "
+            "meshio-tools) numbers them anew.");
+
+        std::vector<std::size_t> tags;
+        std::vector<double> coordinates, parameters;
+        gmsh::model::mesh::getNodes(tags, coordinates, parameters);
+        SerialMesh mesh;
+        std::map<std::size_t, std::size_t> position;
+        for (std::size_t i = 0; i < tags.size(); ++i)
+          if (position.emplace(tags[i], mesh.vertices.size()).second)
+            mesh.vertices.emplace_back(coordinates[3 * i],
+                                       coordinates[3 * i + 1],
+                                       coordinates[3 * i + 2]);
+        read_cells(mesh, position);
+        read_boundary(mesh, position);
+        if (mesh.cells.empty())
+          {
+            std::vector<int> types;
+            gmsh::model::mesh::getElementTypes(types);
+            if (std::count(types.begin(), types.end(), gmsh_quadratic_tetrahedron) > 0)
+              throw InputError(
+                "its tetrahedra are quadratic. Save it with linear ones (Gmsh: -order 1).");
+            throw InputError("it has " + std::to_string(mesh.vertices.size()) +
+                             " vertices but no tetrahedra" + GmshSession::last_complaint() + ".");
+          }
+        return mesh;
+      }
+    catch (const InputError &error)
+      {
+        throw InputError(origin + ": " + error.what());
+      }
+  }
+} // namespace Supple
