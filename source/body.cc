@@ -13,15 +13,15 @@ namespace Supple
 {
   using namespace dealii;
 
-  Body::Body(const Mesh &mesh, const MaterialParameters &material, const RotationMethod rotation)
+  Body::Body(const Mesh &mesh, const Parameters &parameters)
     : mesh(mesh)
-    , rotation(rotation)
+    , rotation(parameters.corotation.rotation)
     , fe(FE_SimplexP<3>(1), 3)
     , dof_handler(mesh.triangulation)
   {
     dof_handler.distribute_dofs(fe);
     number_nodes();
-    collect_cells(material);
+    collect_cells(parameters);
   }
 
 
@@ -39,10 +39,22 @@ namespace Supple
 
 
   void
-  Body::collect_cells(const MaterialParameters &material)
+  Body::collect_cells(const Parameters &parameters)
   {
     positions.resize(n_local);
     serial_vertex.resize(n_local);
+
+    const auto exceptions = parameters.material.exceptions(parameters.origin("Material/By id"));
+    for (const auto &[id, n_cells] : mesh.materials)
+      {
+        const auto exception = exceptions.find(id);
+        materials[id] =
+          exception == exceptions.end() ? parameters.material.preset() : exception->second;
+      }
+    for (const auto &[id, other_material] : exceptions)
+      if (mesh.materials.find(id) == mesh.materials.end())
+        throw InputError(parameters.origin("Material/By id") + ": no cell has the material id " +
+                         std::to_string(id) + ".");
 
     std::vector<Tetrahedron> cells;
     std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
@@ -71,16 +83,14 @@ namespace Supple
           }
         if (!touches_owned && !cell->is_locally_owned())
           continue;
-        tetrahedron.lambda  = material.lame_lambda();
-        tetrahedron.mu      = material.lame_mu();
-        tetrahedron.density = material.density;
-        tetrahedron.owned   = cell->is_locally_owned();
+        tetrahedron.material = material(cell->material_id());
+        tetrahedron.owned    = cell->is_locally_owned();
         cells.push_back(tetrahedron);
         cell_nodes.push_back(tetrahedron.nodes);
         active_cell.push_back(cell->active_cell_index());
         cell_material.push_back(cell->material_id());
       }
-    tetrahedra = std::make_unique<Tetrahedra>(positions, cells, material.lumped);
+    tetrahedra = std::make_unique<Tetrahedra>(positions, cells, parameters.material.lumped);
   }
 
 
@@ -109,6 +119,13 @@ namespace Supple
     const PhaseTimer timer(effort, Phase::forces);
     const GhostValues values(displacement);
     sum_into(force, [&](double *sum) { tetrahedra->add_internal_force(values.data(), sum); });
+  }
+
+
+  const IsotropicMaterial &
+  Body::material(const unsigned int id) const
+  {
+    return materials.at(id);
   }
 
 

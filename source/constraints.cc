@@ -4,6 +4,8 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
+
 namespace Supple
 {
   using namespace dealii;
@@ -35,7 +37,12 @@ namespace Supple
     for (unsigned int dof = 0; dof < 3 * body.n_owned; ++dof)
       if (held[dof])
         held_owned.push_back(dof);
-    n_held               = Utilities::MPI::sum(held_owned.size(), body.mesh.communicator);
+    n_held = Utilities::MPI::sum(held_owned.size(), body.mesh.communicator);
+    std::vector<unsigned int> held_in(body.mesh.report.n_pieces), total(held_in.size());
+    for (const unsigned int dof : held_owned)
+      held_in[body.mesh.report.piece[body.serial_vertex[dof / 3]]] = 1;
+    Utilities::MPI::sum(held_in, body.mesh.communicator, total);
+    n_pieces_free        = std::count(total.begin(), total.end(), 0u);
     n_free_rigid_motions = count_free_rigid_motions(body);
   }
 

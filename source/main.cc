@@ -44,7 +44,7 @@ namespace
             if (line.action == Action::run)
               simulation.run();
             else
-              simulation.print_description();
+              simulation.print_description(true);
           }
       }
   }

@@ -28,7 +28,7 @@ namespace Supple
              parameters.output.frames != OutputParameters::Frames::none)
     , start(std::chrono::steady_clock::now())
     , mesh(parameters, communicator)
-    , body(mesh, parameters.material, parameters.corotation.rotation)
+    , body(mesh, parameters)
     , constraints(body, parameters)
     , loads(body, parameters)
     , probes(body, parameters)
@@ -37,6 +37,11 @@ namespace Supple
     , diagnostics(body, loads, stationary)
     , progress(parameters.time.n_steps, talks, Utilities::MPI::n_mpi_processes(communicator) > 1)
   {
+    if (stationary && constraints.n_pieces_free > 0 && constraints.n_held > 0)
+      throw InputError(
+        "A static scene needs a body that is held: " + std::to_string(constraints.n_pieces_free) +
+        " of its " + std::to_string(mesh.report.n_pieces) +
+        " pieces, which do not hang together, are not held anywhere.");
     if (stationary && constraints.n_free_rigid_motions > 0)
       throw InputError("A static scene needs a body that is held: " +
                        std::to_string(constraints.n_free_rigid_motions) +
@@ -61,6 +66,72 @@ namespace Supple
   Simulation::seconds_since_start() const
   {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+
+  namespace
+  {
+    void
+    line(const std::string &name, const std::string &value)
+    {
+      std::cout << "  " << name << std::string(name.size() < 12 ? 12 - name.size() : 1, ' ')
+                << value << '\n';
+    }
+
+
+    /** "0 (32), 1 (16)" */
+    std::string
+    counts(const std::map<unsigned int, unsigned int> &number_of)
+    {
+      std::string text;
+      for (const auto &[id, n] : number_of)
+        text += (text.empty() ? "" : ", ") + std::to_string(id) + " (" + std::to_string(n) + ")";
+      return text;
+    }
+  } // namespace
+
+
+  void
+  Simulation::print_mesh_details() const
+  {
+    const MeshReport &report = mesh.report;
+    std::ostringstream worst;
+    worst << report.worst_quality << ", cell " << report.worst_cell << " at ("
+          << report.worst_position << "); 1 is regular, 0 is flat";
+    line("boundaries", counts(mesh.boundaries) + "; id (number of faces)");
+    line("materials", counts(mesh.materials) + "; id (number of cells)");
+    line("pieces", std::to_string(report.n_pieces));
+    line("worst cell", worst.str());
+    line("repaired", std::to_string(report.repaired) + " inverted cells");
+    line("vertices",
+         std::to_string(report.unused_vertices) + " in no cell, " +
+           std::to_string(report.double_vertices) + " at the place of another");
+  }
+
+
+  std::vector<std::string>
+  Simulation::warnings() const
+  {
+    std::vector<std::string> list = mesh.report.warnings;
+    if (constraints.n_pieces_free > 0 && constraints.n_held > 0)
+      list.push_back(std::to_string(constraints.n_pieces_free) + " of the " +
+                     std::to_string(mesh.report.n_pieces) + " pieces are not held anywhere.");
+    if (body.rotation == RotationMethod::gram_schmidt)
+      list.push_back(
+        "Gram-Schmidt rotations have no elastic energy: 'elastic' is the energy of the same "
+        "formula, and "
+        "'dissipated' need not grow. They depend on the axes.");
+    double poisson = 0.;
+    for (const auto &[id, n_cells] : mesh.materials)
+      poisson = std::max(poisson, body.material(id).poisson());
+    if (poisson > 0.45)
+      {
+        std::ostringstream text;
+        text << "Linear tetrahedra are too stiff (they lock) at a Poisson ratio above 0.45; it is "
+             << poisson << ".";
+        list.push_back(text.str());
+      }
+    return list;
   }
 
 
@@ -94,14 +165,10 @@ namespace Supple
 
 
   void
-  Simulation::print_description() const
+  Simulation::print_description(const bool in_detail) const
   {
     if (!talks)
       return;
-    const auto line = [](const std::string &name, const std::string &value) {
-      std::cout << "  " << name << std::string(name.size() < 12 ? 12 - name.size() : 1, ' ')
-                << value << '\n';
-    };
     std::ostringstream time;
     time << integrator->name() << ", " << parameters.time.n_steps;
     if (!stationary)
@@ -117,6 +184,8 @@ namespace Supple
     line("body",
          std::to_string(mesh.n_cells) + " tetrahedra, " + std::to_string(mesh.n_vertices) +
            " vertices in " + mesh.extent() + " m, " + volume.str() + " m^3");
+    if (in_detail)
+      print_mesh_details();
     line("unknowns",
          std::to_string(body.dof_handler.n_dofs()) + ", of which " +
            std::to_string(constraints.n_held) + " are held; " +
@@ -126,6 +195,8 @@ namespace Supple
     line("solver", solver->name() + " (" + solver->reason + ")");
     for (const std::string &text : probes.descriptions())
       line("probe", text);
+    for (const std::string &text : warnings())
+      line("warning", text);
     std::cout << std::flush;
   }
 
@@ -174,7 +245,7 @@ namespace Supple
   Simulation::run()
   {
     open_output();
-    print_description();
+    print_description(false);
     try
       {
         record(StepReport());
@@ -281,6 +352,7 @@ namespace Supple
       }
     Summary summary;
     summary.status         = status;
+    summary.warnings       = warnings();
     summary.integrator     = integrator->name();
     summary.steps          = step;
     summary.setup_seconds  = setup_seconds;

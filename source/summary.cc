@@ -46,25 +46,6 @@ namespace Supple
               {"max_volume_ratio", last.max_volume_ratio},
               {"inverted", last.inverted}};
     }
-
-
-    Json
-    warnings(const Model &model)
-    {
-      Json list = Json::array();
-      if (model.body.rotation == RotationMethod::gram_schmidt)
-        list.push_back(
-          "Gram-Schmidt rotations have no elastic energy: 'elastic' is the energy of the same "
-          "formula, and 'dissipated' need not grow. They depend on the axes.");
-      const double lambda = model.parameters.material.lame_lambda();
-      const double mu     = model.parameters.material.lame_mu();
-      const double nu     = lambda / (2. * (lambda + mu));
-      if (nu > 0.45)
-        list.push_back(
-          "Linear tetrahedra are too stiff (they lock) at a Poisson ratio above 0.45; it is " +
-          std::to_string(nu) + ".");
-      return list;
-    }
   } // namespace
 
 
@@ -75,7 +56,7 @@ namespace Supple
     Json json;
     json["scene"]    = model.parameters.scene_name;
     json["status"]   = status;
-    json["warnings"] = warnings(model);
+    json["warnings"] = warnings;
 
     json["cells"]    = model.body.mesh.n_cells;
     json["vertices"] = model.body.mesh.n_vertices;

@@ -72,9 +72,9 @@ namespace Supple
           X[a] = positions[cells[c].nodes[a]];
 
         batch.volume[lane]  = shape_gradients(X, g);
-        batch.lambda[lane]  = cells[c].lambda;
-        batch.mu[lane]      = cells[c].mu;
-        batch.density[lane] = cells[c].density;
+        batch.lambda[lane]  = cells[c].material.lambda;
+        batch.mu[lane]      = cells[c].material.mu;
+        batch.density[lane] = cells[c].material.density;
         batch.owned[lane]   = cells[c].owned ? 1. : 0.;
 
         // Nodes in ascending order: then each pair lies below the diagonal of the matrix.

@@ -73,7 +73,7 @@ namespace
           positions.push_back(x);
         }
       for (const auto &nodes : mesh.cells)
-        cells.push_back({nodes, lambda, mu, density, true});
+        cells.push_back({nodes, {lambda, mu, density}, true});
     }
 
     Tetrahedra

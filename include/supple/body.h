@@ -25,7 +25,7 @@ namespace Supple
   class Body
   {
   public:
-    Body(const Mesh &mesh, const MaterialParameters &material, RotationMethod rotation);
+    Body(const Mesh &mesh, const Parameters &parameters);
 
     const Mesh &mesh;
     const RotationMethod rotation;
@@ -56,6 +56,10 @@ namespace Supple
     void
     internal_force(Vector &force, const Vector &displacement, Effort &effort) const;
 
+    /** Of the cells with this material id. */
+    const IsotropicMaterial &
+    material(unsigned int id) const;
+
     dealii::Point<3>
     position(unsigned int node) const;
 
@@ -69,11 +73,13 @@ namespace Supple
     region_nodes(const std::string &expression, const std::string &origin) const;
 
   private:
+    std::map<unsigned int, IsotropicMaterial> materials;
+
     void
     number_nodes();
 
     void
-    collect_cells(const MaterialParameters &material);
+    collect_cells(const Parameters &parameters);
   };
 } // namespace Supple
 

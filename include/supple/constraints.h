@@ -38,6 +38,8 @@ namespace Supple
 
     unsigned int n_held; ///< degrees of freedom on all processes
 
+    unsigned int n_pieces_free; ///< pieces of the body of which nothing is held
+
     /** How many of the six rigid motions remain possible. */
     unsigned int n_free_rigid_motions;
 

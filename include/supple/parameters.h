@@ -1,6 +1,7 @@
 #ifndef supple_parameters_h
 #define supple_parameters_h
 
+#include <supple/material.h>
 #include <supple/rotation.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -65,17 +66,18 @@ namespace Supple
     double mu           = 1e6;
     double density      = 1000.;
     bool lumped         = false;
+    std::string by_id; ///< as written
 
     void
     declare(dealii::ParameterHandler &prm);
 
-    /** Lame's first parameter [Pa], from whichever constants are given. */
-    double
-    lame_lambda() const;
+    /** What holds for cells whose material id is not in the list below. */
+    IsotropicMaterial
+    preset() const;
 
-    /** Shear modulus [Pa]. */
-    double
-    lame_mu() const;
+    /** Materials of their own by id, checked. @throws InputError */
+    std::map<unsigned int, IsotropicMaterial>
+    exceptions(const std::string &origin) const;
   };
 
 

@@ -33,9 +33,9 @@ namespace Supple
     void
     run();
 
-    /** What would be run, as a table. */
+    /** What would be run, as a table; in detail with what was found in the mesh. */
     void
-    print_description() const;
+    print_description(bool in_detail) const;
 
   private:
     /** What the integrator works with. */
@@ -44,6 +44,13 @@ namespace Supple
 
     void
     create_initial_state();
+
+    void
+    print_mesh_details() const;
+
+    /** What the user should know, in sentences. */
+    std::vector<std::string>
+    warnings() const;
 
     void
     open_output();

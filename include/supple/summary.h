@@ -4,6 +4,7 @@
 #include <supple/diagnostics.h>
 
 #include <string>
+#include <vector>
 
 namespace Supple
 {
@@ -11,6 +12,7 @@ namespace Supple
   struct Summary
   {
     std::string status; ///< done, interrupted or failed: why
+    std::vector<std::string> warnings;
     std::string integrator;
     unsigned int steps    = 0;
     double setup_seconds  = 0.;

@@ -2,6 +2,7 @@
 #define supple_tetrahedra_h
 
 #include <supple/block_matrix.h>
+#include <supple/material.h>
 #include <supple/rotation.h>
 
 #include <array>
@@ -14,10 +15,8 @@ namespace Supple
   struct Tetrahedron
   {
     std::array<unsigned int, 4> nodes; ///< local node numbers, positively oriented
-    double lambda;                     ///< [Pa]
-    double mu;                         ///< [Pa]
-    double density;                    ///< [kg/m^3]
-    bool owned;                        ///< counted in sums: true on exactly one process
+    IsotropicMaterial material;
+    bool owned; ///< counted in sums: true on exactly one process
   };
 
 

@@ -1,0 +1,277 @@
+#include <supple/error.h>
+#include <supple/parameters.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+namespace Supple
+{
+  using dealii::ParameterHandler;
+
+  namespace
+  {
+    IsotropicMaterial
+    from_young_poisson(const double young, const double poisson, const double density)
+    {
+      return {young * poisson / ((1. + poisson) * (1. - 2. * poisson)),
+              young / (2. * (1. + poisson)),
+              density};
+    }
+  } // namespace
+
+
+  IsotropicMaterial
+  MaterialParameters::preset() const
+  {
+    if (constants == Constants::lame)
+      return {lambda, mu, density};
+    return from_young_poisson(young, poisson, density);
+  }
+
+
+  std::map<unsigned int, IsotropicMaterial>
+  MaterialParameters::exceptions(const std::string &origin) const
+  {
+    std::map<unsigned int, IsotropicMaterial> materials;
+    for (const std::string &item : dealii::Utilities::split_string_list(by_id, ';'))
+      {
+        if (item.empty())
+          continue;
+        std::smatch found;
+        std::vector<std::string> numbers;
+        if (std::regex_match(item, found, std::regex("(\\d{1,6})\\s*:(.*)")))
+          numbers = dealii::Utilities::split_string_list(found[2], ',');
+        if (numbers.size() != 3 || !Range::between(0, infinity).match(numbers[0]) ||
+            !Range::between(-1, 0.5).match(numbers[1]) ||
+            !Range::between(0, infinity).match(numbers[2]))
+          throw InputError(
+            origin + ": '" + item +
+            "' is not of the form id: Young modulus, Poisson ratio, density, with a positive "
+            "modulus and density and a ratio greater than -1 and less than 0.5.");
+        materials[std::stoul(found[1])] =
+          from_young_poisson(std::stod(numbers[0]), std::stod(numbers[1]), std::stod(numbers[2]));
+      }
+    return materials;
+  }
+
+
+  void
+  Parameters::declare(ParameterHandler &prm)
+  {
+    mesh.declare(prm);
+    material.declare(prm);
+    corotation.declare(prm);
+    damping.declare(prm);
+    constraints.declare(prm);
+    loads.declare(prm);
+    start.declare(prm);
+    time.declare(prm);
+    solver.declare(prm);
+    output.declare(prm);
+    probes.declare(prm);
+  }
+
+
+  void
+  Parameters::check() const
+  {
+    if (3. * material.preset().lambda + 2. * material.preset().mu <= 0.)
+      throw InputError(origin("Material/Lame lambda") +
+                       ": 3 lambda + 2 mu must be positive, or the body gives way to pressure.");
+
+    mesh.check(*this);
+    if (time.problem == TimeParameters::Problem::stationary && damping.any())
+      throw InputError(origin("Time/Problem") +
+                       ": a static problem knows no velocity; take the damping out of the scene.");
+    if (time.problem == TimeParameters::Problem::stationary &&
+        !Expression(start.velocity, 3, origin("Start/Velocity")).is_zero())
+      throw InputError(origin("Start/Velocity") +
+                       ": a static problem knows no velocity; it must be 0; 0; 0.");
+  }
+
+
+  namespace
+  {
+    /** What deal.II says of a parameter file, in one line that begins with file:line unless @p
+     * place is given. */
+    std::string
+    plain_message(const dealii::ExceptionBase &exception, const std::string &place = "")
+    {
+      std::ostringstream text;
+      exception.print_info(text);
+      const std::string line =
+        std::regex_replace(dealii::Utilities::trim(text.str()), std::regex("\\n\\s*"), " ");
+      const std::regex where("^Line <(\\d+)> of file <([^:>]*)>?: ");
+      return std::regex_replace(line, where, place.empty() ? "$2:$1: " : place + ": ") +
+             "\nsupple --print-parameters lists every entry.";
+    }
+
+
+    /** Finds at which line each entry of a parameter file is set. */
+    std::map<std::string, std::string>
+    find_places(const std::string &file, const std::string &text)
+    {
+      std::map<std::string, std::string> places;
+      std::vector<std::string> sections;
+      std::istringstream lines(text);
+      std::string line;
+      for (unsigned int number = 1; std::getline(lines, line); ++number)
+        {
+          std::smatch found;
+          if (std::regex_match(line,
+                               found,
+                               std::regex("\\s*subsection\\s+(.*?)\\s*(#.*)?", std::regex::icase)))
+            sections.push_back(found[1]);
+          else if (std::regex_match(line, std::regex("\\s*end\\s*(#.*)?", std::regex::icase)) &&
+                   !sections.empty())
+            sections.pop_back();
+          else if (std::regex_match(line,
+                                    found,
+                                    std::regex("\\s*set\\s+(.*?)\\s*=.*", std::regex::icase)))
+            {
+              std::string path;
+              for (const std::string &section : sections)
+                path += section + "/";
+              places[path + found[1].str()] = file + ":" + std::to_string(number);
+            }
+        }
+      return places;
+    }
+
+
+    void
+    apply_override(ParameterHandler &prm, const std::string &text, std::string &entry)
+    {
+      const std::string right =
+        "--set takes \"Section/Entry=value\", such as --set \"Time/Steps=10\".";
+      const auto equal = text.find('=');
+      const auto slash = text.find('/');
+      if (equal == std::string::npos || slash == std::string::npos || slash > equal)
+        throw InputError("--set \"" + text + "\": no section, entry or value found. " + right);
+
+      const std::string section = dealii::Utilities::trim(text.substr(0, slash));
+      const std::string name  = dealii::Utilities::trim(text.substr(slash + 1, equal - slash - 1));
+      const std::string value = dealii::Utilities::trim(text.substr(equal + 1));
+      entry                   = section + "/" + name;
+      try
+        {
+          prm.parse_input_from_string("subsection " + section + "\nset " + name + " = " + value +
+                                      "\nend\n");
+        }
+      catch (const dealii::ExceptionBase &exception)
+        {
+          throw InputError(plain_message(exception, "--set \"" + text + "\""));
+        }
+    }
+  } // namespace
+
+
+  Parameters
+  Parameters::read(const std::string &file, const std::vector<std::string> &overrides)
+  {
+    // parse_input() makes the file if it is not there
+    std::ifstream stream(file);
+    if (!stream || !std::filesystem::is_regular_file(file))
+      throw InputError(file + ": there is no such parameter file, or it can't be read.");
+    std::stringstream content;
+    content << stream.rdbuf();
+    if (dealii::Utilities::trim(content.str()).empty())
+      throw InputError(file + ": this parameter file is empty.");
+
+    Parameters parameters;
+    ParameterHandler prm;
+    parameters.declare(prm);
+    parameters.scene_name   = std::filesystem::path(file).stem().string();
+    parameters.scene_folder = std::filesystem::path(file).parent_path().string();
+    parameters.places       = find_places(file, content.str());
+    try
+      {
+        prm.parse_input(content, file);
+      }
+    catch (const dealii::ExceptionBase &exception)
+      {
+        throw InputError(plain_message(exception));
+      }
+    for (const std::string &text : overrides)
+      {
+        std::string entry;
+        apply_override(prm, text, entry);
+        parameters.places[entry] = "--set";
+      }
+
+    for (const auto &[entry, place] : parameters.places)
+      {
+        const auto slash = entry.find('/');
+        if (slash == std::string::npos)
+          continue;
+        prm.enter_subsection(entry.substr(0, slash));
+        parameters.values[entry] = prm.get(entry.substr(slash + 1));
+        prm.leave_subsection();
+      }
+    std::ostringstream used;
+    prm.print_parameters(used, ParameterHandler::PRM);
+    parameters.as_used = used.str();
+
+    parameters.check();
+    return parameters;
+  }
+
+
+  std::string
+  Parameters::output_folder() const
+  {
+    return output.folder.empty() ? "output/" + scene_name : output.folder;
+  }
+
+
+  std::string
+  Parameters::origin(const std::string &entry) const
+  {
+    const auto place = places.find(entry);
+    if (place == places.end())
+      return entry + " (not set in the scene)";
+    return place->second + ": " + entry + " = " + values.at(entry);
+  }
+
+
+  void
+  Parameters::print(std::ostream &out) const
+  {
+    out << as_used;
+  }
+
+
+  void
+  Parameters::print_reference(std::ostream &out, const std::string &format)
+  {
+    Parameters parameters;
+    ParameterHandler prm;
+    parameters.declare(prm);
+    prm.print_parameters(out, format == "json" ? ParameterHandler::JSON : ParameterHandler::PRM);
+  }
+
+
+  std::vector<std::pair<std::string, std::string>>
+  named_list(const std::string &text, const std::string &origin)
+  {
+    std::vector<std::pair<std::string, std::string>> list;
+    for (const std::string &item : dealii::Utilities::split_string_list(text, ';'))
+      {
+        if (item.empty())
+          continue;
+        std::smatch found;
+        if (!std::regex_match(item, found, std::regex("([A-Za-z_][A-Za-z_0-9]*)\\s*:\\s*(.+)")))
+          throw InputError(origin + ": '" + item +
+                           "' is not of the form name: value (a name has letters, digits and _).");
+        for (const auto &[name, value] : list)
+          if (name == found[1])
+            throw InputError(origin + ": the name '" + name + "' is given twice.");
+        list.emplace_back(found[1], found[2]);
+      }
+    return list;
+  }
+} // namespace Supple
