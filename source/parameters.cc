@@ -498,4 +498,86 @@ namespace Supple
                       any);
     prm.leave_subsection();
   }
+
+
+  namespace
+  {
+    IsotropicMaterial
+    from_young_poisson(const double young, const double poisson, const double density)
+    {
+      return {young * poisson / ((1. + poisson) * (1. - 2. * poisson)),
+              young / (2. * (1. + poisson)),
+              density};
+    }
+  } // namespace
+
+
+  IsotropicMaterial
+  MaterialParameters::preset() const
+  {
+    if (constants == Constants::lame)
+      return {lambda, mu, density};
+    return from_young_poisson(young, poisson, density);
+  }
+
+
+  std::map<unsigned int, IsotropicMaterial>
+  MaterialParameters::exceptions(const std::string &origin) const
+  {
+    std::map<unsigned int, IsotropicMaterial> materials;
+    for (const std::string &item : dealii::Utilities::split_string_list(by_id, ';'))
+      {
+        if (item.empty())
+          continue;
+        std::smatch found;
+        std::vector<std::string> numbers;
+        if (std::regex_match(item, found, std::regex("(\\d{1,6})\\s*:(.*)")))
+          numbers = dealii::Utilities::split_string_list(found[2], ',');
+        if (numbers.size() != 3 || !Range::between(0, infinity).match(numbers[0]) ||
+            !Range::between(-1, 0.5).match(numbers[1]) ||
+            !Range::between(0, infinity).match(numbers[2]))
+          throw InputError(
+            origin + ": '" + item +
+            "' is not of the form id: Young modulus, Poisson ratio, density, with a positive "
+            "modulus and density and a ratio greater than -1 and less than 0.5.");
+        materials[std::stoul(found[1])] =
+          from_young_poisson(std::stod(numbers[0]), std::stod(numbers[1]), std::stod(numbers[2]));
+      }
+    return materials;
+  }
+
+
+  void
+  Parameters::declare(ParameterHandler &prm)
+  {
+    mesh.declare(prm);
+    material.declare(prm);
+    corotation.declare(prm);
+    damping.declare(prm);
+    constraints.declare(prm);
+    loads.declare(prm);
+    start.declare(prm);
+    time.declare(prm);
+    solver.declare(prm);
+    output.declare(prm);
+    probes.declare(prm);
+  }
+
+
+  void
+  Parameters::check() const
+  {
+    if (3. * material.preset().lambda + 2. * material.preset().mu <= 0.)
+      throw InputError(origin("Material/Lame lambda") +
+                       ": 3 lambda + 2 mu must be positive, or the body gives way to pressure.");
+
+    mesh.check(*this);
+    if (time.problem == TimeParameters::Problem::stationary && damping.any())
+      throw InputError(origin("Time/Problem") +
+                       ": a static problem knows no velocity; take the damping out of the scene.");
+    if (time.problem == TimeParameters::Problem::stationary &&
+        !Expression(start.velocity, 3, origin("Start/Velocity")).is_zero())
+      throw InputError(origin("Start/Velocity") +
+                       ": a static problem knows no velocity; it must be 0; 0; 0.");
+  }
 } // namespace Supple
