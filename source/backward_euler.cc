@@ -65,6 +65,8 @@ namespace Supple
     model.body.initialize(scratch);
     model.body.initialize(force);
     model.body.initialize(velocity_increment);
+    if (model.constraints.move())
+      model.body.initialize(prescribed_acceleration);
 
     const auto &diagonal = model.implicit_operator.mass_matrix().diagonal;
     for (unsigned int node = 0; node < model.body.n_owned; ++node)
@@ -124,7 +126,13 @@ namespace Supple
     ode.mass_times_vector = [this](const double, const State &v, State &Mv) {
       return guarded([&] {
         Mv.block(0) = v.block(0);
-        model.implicit_operator.mass_vmult(Mv.block(1), v.block(1));
+        if (model.constraints.move())
+          {
+            full_mass_product(Mv.block(1), v.block(1));
+            model.constraints.copy_held(Mv.block(1), v.block(1));
+          }
+        else
+          model.implicit_operator.mass_vmult(Mv.block(1), v.block(1));
       });
     };
 
@@ -235,20 +243,69 @@ namespace Supple
     if (damping.viscous > 0.)
       net.add(-damping.viscous, y.block(1));
     model.constraints.set_zero(net);
+    if (model.constraints.move())
+      model.constraints.copy_held(net, prescribed_acceleration);
+  }
+
+
+  void
+  BackwardEuler::full_mass_product(Vector &y, const Vector &x) const
+  {
+    const GhostValues values(x);
+    sum_into(y, [&](double *sum) { model.body.tetrahedra->add_mass_product(values.data(), sum); });
+  }
+
+
+  /** Backward Euler takes held vertices where they shall be: u1 = u0 + dt v1, v1 = v0 + dt a. */
+  void
+  BackwardEuler::set_prescribed_acceleration(const State &state, const double time)
+  {
+    const double dt = model.parameters.time.step;
+    model.constraints.set_displacement(prescribed_acceleration, time);
+    prescribed_acceleration -= state.block(0);
+    prescribed_acceleration /= dt;
+    prescribed_acceleration -= state.block(1);
+    prescribed_acceleration /= dt;
   }
 
 
   void
   BackwardEuler::solve_eliminated(const State &r, State &z)
   {
-    model.implicit_operator.stiffness_vmult(scratch, r.block(0));
-    scratch.sadd(-gamma, 1., r.block(1));
+    if (model.constraints.move())
+      eliminate_prescribed(r);
+    else
+      {
+        model.implicit_operator.stiffness_vmult(scratch, r.block(0));
+        scratch.sadd(-gamma, 1., r.block(1));
+      }
     model.constraints.set_zero(scratch);
     linear_iterations += model.solver.solve(z.block(1), scratch);
+    if (model.constraints.move())
+      model.constraints.copy_held(z.block(1), r.block(1));
 
     velocity_increment = z.block(1);
     z.block(0)         = r.block(0);
     z.block(0).add(gamma, z.block(1));
+  }
+
+
+  /** The right hand side r_v - g K' r_u - A z, where z is what is known of z_v: its held entries,
+   * those of r_v. */
+  void
+  BackwardEuler::eliminate_prescribed(const State &r)
+  {
+    const DampingParameters &damping = model.parameters.damping;
+    Vector known;
+    model.body.initialize(known);
+    model.constraints.copy_held(known, r.block(1));
+    full_mass_product(scratch, known);
+    scratch.sadd(-(1. + gamma * damping.mass_factor), 1., r.block(1));
+
+    known *= gamma * gamma + gamma * damping.stiffness_factor;
+    known.add(gamma, r.block(0));
+    model.implicit_operator.stiffness_vmult(force, known);
+    scratch -= force;
   }
 
 
@@ -258,16 +315,31 @@ namespace Supple
     const PhaseTimer timer(model.effort, Phase::solve);
 
     x = velocity_increment;
-    SolverControl control(1000, 1e-13 * b.l2_norm() + std::numeric_limits<double>::min());
+    if (model.constraints.move())
+      {
+        Vector known;
+        model.body.initialize(known);
+        model.constraints.copy_held(known, b);
+        full_mass_product(scratch, known);
+        scratch.sadd(-1., 1., b);
+        model.constraints.set_zero(scratch);
+        model.constraints.set_zero(x);
+      }
+    else
+      scratch = b;
+
+    SolverControl control(1000, 1e-13 * scratch.l2_norm() + std::numeric_limits<double>::min());
     SolverCG<Vector> cg(control);
     try
       {
-        cg.solve(MassProduct{model.implicit_operator}, x, b, MassDiagonal{inverse_mass});
+        cg.solve(MassProduct{model.implicit_operator}, x, scratch, MassDiagonal{inverse_mass});
       }
     catch (const SolverControl::NoConvergence &)
       {
         throw ComputationError("the system with the mass matrix was not solved");
       }
+    if (model.constraints.move())
+      model.constraints.copy_held(x, b);
   }
 
 
@@ -278,6 +350,8 @@ namespace Supple
     report.dt         = model.parameters.time.step;
     previous          = state;
     linear_iterations = 0;
+    if (model.constraints.move())
+      set_prescribed_acceleration(state, time);
     try
       {
         // The same sum as ARKode's own time: one step of just this size, with just this gamma.
@@ -321,7 +395,7 @@ namespace Supple
     du -= previous.block(0);
     dv -= previous.block(1);
 
-    model.implicit_operator.mass_vmult(scratch, dv);
+    full_mass_product(scratch, dv);
     report.expended = 0.5 * (dv * scratch);
 
     Effort uncounted; // these forces are for the eye alone
@@ -329,20 +403,12 @@ namespace Supple
     report.expended += force * du;
 
     // Reactions: M a + D v + f_int - f, on all nodes.
-    Vector inertia = dv;
-    inertia /= report.dt;
-    inertia.add(damping.mass_factor, v);
-    {
-      const GhostValues values(inertia);
-      sum_into(scratch,
-               [&](double *sum) { model.body.tetrahedra->add_mass_product(values.data(), sum); });
-    }
-    force += scratch;
+    force.add(1. / report.dt, scratch);
     if (damping.any())
       {
         Vector damping_force = v;
         damping_force *= damping.viscous;
-        model.implicit_operator.mass_vmult(scratch, v);
+        full_mass_product(scratch, v);
         damping_force.add(damping.mass_factor, scratch);
         {
           const GhostValues values(v);
@@ -351,13 +417,15 @@ namespace Supple
           });
         }
         damping_force.add(damping.stiffness_factor, scratch);
-        force.add(damping.stiffness_factor, scratch);
         report.expended += report.dt * (v * damping_force);
+        force += damping_force;
       }
     force -= model.loads.force(time);
     set_reactions(force);
 
     if (model.loads.has_body_force())
       report.load_work = model.loads.body_force(time) * du;
+    if (model.constraints.move())
+      report.load_work += reactions() * du;
   }
 } // namespace Supple

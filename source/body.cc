@@ -4,10 +4,12 @@
 #include <supple/error.h>
 #include <supple/expression.h>
 
+#include <deal.II/base/utilities.h>
 #include <deal.II/fe/fe_simplex_p.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace Supple
 {
@@ -133,6 +135,98 @@ namespace Supple
   Body::position(const unsigned int node) const
   {
     return {positions[node][0], positions[node][1], positions[node][2]};
+  }
+
+
+  namespace
+  {
+    /** The numbers of "1, 2, 3"; nothing if the text is something else. */
+    std::vector<double>
+    numbers_in(const std::string &text)
+    {
+      try
+        {
+          const auto numbers = Utilities::string_to_double(Utilities::split_string_list(text, ','));
+          for (const double number : numbers)
+            if (!std::isfinite(number))
+              return {};
+          return numbers;
+        }
+      catch (const ExceptionBase &)
+        {
+          return {};
+        }
+    }
+  } // namespace
+
+
+  std::vector<bool>
+  Body::selected_nodes(const std::string &text, const std::string &origin) const
+  {
+    const auto argument = [&](const std::string &keyword) {
+      return text.rfind(keyword + " ", 0) == 0 ? text.substr(keyword.size() + 1) : "";
+    };
+    std::vector<bool> nodes(n_local, text == "all");
+    if (text == "all")
+      return nodes;
+
+    if (!argument("region").empty())
+      return region_nodes(argument("region"), origin);
+
+    if (!argument("boundary").empty())
+      {
+        const auto ids = numbers_in(argument("boundary"));
+        for (const double id : ids)
+          {
+            const auto more = boundary_nodes(static_cast<unsigned int>(id), origin);
+            std::transform(
+              nodes.begin(), nodes.end(), more.begin(), nodes.begin(), std::logical_or<>());
+          }
+        if (!ids.empty())
+          return nodes;
+      }
+
+    auto index       = numbers_in(argument("vertex"));
+    const auto point = numbers_in(argument("nearest to"));
+    if (point.size() == 3)
+      index = {double(nearest_vertex({point[0], point[1], point[2]}).first)};
+    if (index.size() != 1)
+      throw InputError(
+        origin +
+        ": it must be all, or one of these words with what follows: vertex INDEX, nearest to "
+        "X, Y, Z, boundary IDS, region EXPRESSION.");
+    unsigned int n_found = 0;
+    for (unsigned int node = 0; node < n_local; ++node)
+      {
+        nodes[node] = serial_vertex[node] == index[0];
+        n_found += nodes[node];
+      }
+    if (Utilities::MPI::max(n_found, mesh.communicator) == 0)
+      throw InputError(origin + ": the body has no such vertex; the indices go from 0 to " +
+                       std::to_string(mesh.report.piece.size() - 1) + ".");
+    return nodes;
+  }
+
+
+  std::pair<unsigned int, double>
+  Body::nearest_vertex(const Point<3> &point) const
+  {
+    // Of several that are equally near, the one with the smallest index.
+    double smallest      = std::numeric_limits<double>::max();
+    unsigned int nearest = numbers::invalid_unsigned_int;
+    for (unsigned int node = 0; node < n_owned; ++node)
+      {
+        const double distance = position(node).distance(point);
+        if (distance < smallest || (distance == smallest && serial_vertex[node] < nearest))
+          {
+            smallest = distance;
+            nearest  = serial_vertex[node];
+          }
+      }
+    const double distance = Utilities::MPI::min(smallest, mesh.communicator);
+    return {Utilities::MPI::min(smallest == distance ? nearest : numbers::invalid_unsigned_int,
+                                mesh.communicator),
+            distance};
   }
 
 

@@ -1,6 +1,9 @@
 #include <supple/constraints.h>
 
+#include <supple/error.h>
+
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
 
 #include <Eigen/Dense>
 
@@ -11,7 +14,8 @@ namespace Supple
   using namespace dealii;
 
   Constraints::Constraints(const Body &body, const Parameters &parameters)
-    : held(3 * body.n_local)
+    : body(body)
+    , held(3 * body.n_local)
   {
     const auto hold = [&](const std::vector<bool> &nodes, const std::array<bool, 3> &directions) {
       for (unsigned int node = 0; node < body.n_local; ++node)
@@ -33,6 +37,10 @@ namespace Supple
         hold(body.boundary_nodes(
                id, parameters.origin(std::string("Constraints/Boundaries held along ") + "xyz"[i])),
              {{i == 0, i == 1, i == 2}});
+
+    for (unsigned int m = 0; m < parameters.motions.size(); ++m)
+      if (!parameters.motions[m].of.empty())
+        add_motion(parameters.motions[m], Parameters::motion_section(m), parameters);
 
     for (unsigned int dof = 0; dof < 3 * body.n_owned; ++dof)
       if (held[dof])
@@ -77,6 +85,59 @@ namespace Supple
                                                                             Eigen::EigenvaluesOnly);
     const double largest = solver.eigenvalues().maxCoeff();
     return (solver.eigenvalues().array() <= 1e-12 * largest).count();
+  }
+
+
+  void
+  Constraints::add_motion(const MotionParameters &motion,
+                          const std::string &section,
+                          const Parameters &parameters)
+  {
+    const auto nodes =
+      body.selected_nodes(Utilities::trim(motion.of), parameters.origin(section + "/Of"));
+    const std::string origin = parameters.origin(section + "/Displacement");
+    const auto components    = Utilities::split_string_list(motion.displacement, ';');
+    if (components.size() != 3)
+      throw InputError(origin + ": found " + std::to_string(components.size()) +
+                       " expression(s); there must be 3, set apart by semicolons.");
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        if (components[i] == "free")
+          continue;
+        motions.push_back({i, Expression(components[i], 1, origin), {}});
+        unsigned int n_twice = 0;
+        for (unsigned int node = 0; node < body.n_local; ++node)
+          if (nodes[node])
+            {
+              n_twice += held[3 * node + i];
+              held[3 * node + i] = true;
+              if (node < body.n_owned)
+                motions.back().nodes.push_back(node);
+            }
+        if (Utilities::MPI::max(n_twice, body.mesh.communicator) > 0)
+          throw InputError(parameters.origin(section + "/Of") +
+                           ": some of these vertices are held or moved already along " +
+                           std::string(1, "xyz"[i]) + ".");
+      }
+  }
+
+
+  void
+  Constraints::set_displacement(Vector &displacement, const double time) const
+  {
+    set_zero(displacement);
+    for (const Motion &motion : motions)
+      for (const unsigned int node : motion.nodes)
+        displacement.local_element(3 * node + motion.direction) =
+          motion.displacement.value(body.position(node), time);
+  }
+
+
+  void
+  Constraints::copy_held(Vector &to, const Vector &from) const
+  {
+    for (const unsigned int dof : held_owned)
+      to.local_element(dof) = from.local_element(dof);
   }
 
 

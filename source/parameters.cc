@@ -303,6 +303,35 @@ namespace Supple
 
 
   void
+  MotionParameters::declare(ParameterHandler &prm, const std::string &section)
+  {
+    prm.enter_subsection(section);
+    prm.add_parameter(
+      "Of",
+      of,
+      "Which vertices are moved. Empty: none. Unit: m. Range: vertex and an index of the mesh, "
+      "nearest to and a point, boundary and ids, region and an expression of x, y, z, or all.",
+      dealii::Patterns::Anything());
+    prm.add_parameter(
+      "Displacement",
+      displacement,
+      "Displacement of these vertices from rest in time; in a static problem t is the load factor, "
+      "from 0 to 1. Unit: m. Range: three expressions of x, y, z, t set apart by semicolons, or "
+      "the "
+      "word free for a direction that is not prescribed.",
+      dealii::Patterns::Anything());
+    prm.leave_subsection();
+  }
+
+
+  std::string
+  Parameters::motion_section(const unsigned int motion)
+  {
+    return motion == 0 ? "Motion" : "Motion " + std::to_string(motion + 1);
+  }
+
+
+  void
   LoadParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Loads");
@@ -555,6 +584,8 @@ namespace Supple
     corotation.declare(prm);
     damping.declare(prm);
     constraints.declare(prm);
+    for (unsigned int m = 0; m < motions.size(); ++m)
+      motions[m].declare(prm, motion_section(m));
     loads.declare(prm);
     start.declare(prm);
     time.declare(prm);

@@ -57,35 +57,20 @@ namespace Supple
                          "' is no point; three numbers set apart by commas are.");
       }
 
-    // The nearest vertex; of several that are equally near the one with the smallest index.
-    double smallest      = std::numeric_limits<double>::max();
-    unsigned int nearest = numbers::invalid_unsigned_int, nearest_node = 0;
-    for (unsigned int node = 0; node < body.n_owned; ++node)
-      {
-        const double distance = body.position(node).distance(point);
-        if (distance < smallest || (distance == smallest && body.serial_vertex[node] < nearest))
-          {
-            smallest     = distance;
-            nearest      = body.serial_vertex[node];
-            nearest_node = node;
-          }
-      }
-    const MPI_Comm communicator = body.mesh.communicator;
-    const double distance       = Utilities::MPI::min(smallest, communicator);
-    const unsigned int vertex =
-      Utilities::MPI::min(smallest == distance ? nearest : numbers::invalid_unsigned_int,
-                          communicator);
+    const auto [vertex, distance] = body.nearest_vertex(point);
 
     Probe probe;
     probe.name    = name;
     probe.n_nodes = 1;
-    if (vertex == nearest)
-      probe.nodes.push_back(nearest_node);
+    std::vector<double> here(3), position(3);
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      if (body.serial_vertex[node] == vertex)
+        {
+          probe.nodes.push_back(node);
+          std::copy(body.positions[node].begin(), body.positions[node].end(), here.begin());
+        }
+    Utilities::MPI::sum(here, body.mesh.communicator, position);
 
-    std::vector<double> position(3);
-    for (unsigned int d = 0; d < 3; ++d)
-      position[d] =
-        Utilities::MPI::sum(vertex == nearest ? body.positions[nearest_node][d] : 0., communicator);
     std::ostringstream description;
     description << "vertex " << vertex << " at (" << position[0] << ", " << position[1] << ", "
                 << position[2] << "), " << distance << " m from the point asked for";

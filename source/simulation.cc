@@ -161,6 +161,12 @@ namespace Supple
           throw InputError(parameters.origin(starts[b].first) +
                            ": it is not a finite number at every vertex.");
       }
+    if (constraints.move())
+      {
+        constraints.set_displacement(state.block(0), 0.);
+        if (!std::isfinite(state.block(0).l2_norm()))
+          throw InputError("A displacement of subsection Motion is not a finite number at time 0.");
+      }
   }
 
 

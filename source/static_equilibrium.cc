@@ -119,6 +119,8 @@ namespace Supple
     const TimeParameters &time = model.parameters.time;
     const bool linear          = model.body.rotation == RotationMethod::none;
 
+    if (model.constraints.move())
+      model.constraints.set_displacement(u, load_factor);
     update_residual(u, load_factor);
     for (;;)
       {

@@ -53,6 +53,16 @@ namespace Supple
     void
     solve_eliminated(const State &r, State &z);
 
+    /** y = M x on all rows, held ones included. */
+    void
+    full_mass_product(Vector &y, const Vector &x) const;
+
+    void
+    set_prescribed_acceleration(const State &state, double time);
+
+    void
+    eliminate_prescribed(const State &r);
+
     /** x = M^-1 b, starting from the increment that the last step's linear system gave. */
     void
     solve_mass(Vector &x, const Vector &b);
@@ -73,6 +83,7 @@ namespace Supple
     double gamma    = 0.;
     State previous;
     Vector scratch, force;
+    Vector prescribed_acceleration;   ///< of the held degrees of freedom [m/s^2]
     Vector velocity_increment;        ///< z_v of the last linear system
     std::vector<double> inverse_mass; ///< of each owned node's diagonal entry
     unsigned int linear_iterations = 0;

@@ -63,6 +63,19 @@ namespace Supple
     dealii::Point<3>
     position(unsigned int node) const;
 
+    /**
+     * The nodes a user means by "vertex 12", "nearest to 0, 0, 1", "boundary 2, 3", "region z > 1"
+     * or "all".
+     * @throws InputError beginning with @p origin if it is none of these, or there is no such node
+     */
+    std::vector<bool>
+    selected_nodes(const std::string &text, const std::string &origin) const;
+
+    /** The index of the vertex nearest to a point, in the unpartitioned mesh, and its distance [m].
+     */
+    std::pair<unsigned int, double>
+    nearest_vertex(const dealii::Point<3> &point) const;
+
     /** The nodes of a boundary. @throws InputError beginning with @p origin if there are none. */
     std::vector<bool>
     boundary_nodes(unsigned int boundary_id, const std::string &origin) const;

@@ -2,10 +2,11 @@
 #define supple_constraints_h
 
 #include <supple/body.h>
+#include <supple/expression.h>
 
 namespace Supple
 {
-  /** Which degrees of freedom are held: they keep the place and the velocity zero. */
+  /** Which degrees of freedom are held, at their place at rest or on a prescribed path. */
   class Constraints
   {
   public:
@@ -36,6 +37,21 @@ namespace Supple
     void
     set_zero(Vector &vector) const;
 
+    /** Whether anything is held elsewhere than at its place at rest. */
+    bool
+    move() const
+    {
+      return !motions.empty();
+    }
+
+    /** Sets the held entries to their prescribed displacement [m] at a time [s]. */
+    void
+    set_displacement(Vector &displacement, double time) const;
+
+    /** Copies the held entries. */
+    void
+    copy_held(Vector &to, const Vector &from) const;
+
     unsigned int n_held; ///< degrees of freedom on all processes
 
     unsigned int n_pieces_free; ///< pieces of the body of which nothing is held
@@ -44,6 +60,21 @@ namespace Supple
     unsigned int n_free_rigid_motions;
 
   private:
+    struct Motion
+    {
+      unsigned int direction;
+      Expression displacement;
+      std::vector<unsigned int> nodes; ///< owned
+    };
+
+    void
+    add_motion(const MotionParameters &motion,
+               const std::string &section,
+               const Parameters &parameters);
+
+    const Body &body;
+    std::vector<Motion> motions;
+
     unsigned int
     count_free_rigid_motions(const Body &body) const;
 

@@ -116,6 +116,17 @@ namespace Supple
   };
 
 
+  /** A prescribed displacement. */
+  struct MotionParameters
+  {
+    std::string of; ///< which vertices, as written; empty: there is no such motion
+    std::string displacement = "0; 0; 0"; ///< three expressions, or the word free
+
+    void
+    declare(dealii::ParameterHandler &prm, const std::string &section);
+  };
+
+
   struct LoadParameters
   {
     dealii::Tensor<1, 3> gravity;
@@ -221,6 +232,7 @@ namespace Supple
     CorotationParameters corotation;
     DampingParameters damping;
     ConstraintParameters constraints;
+    std::array<MotionParameters, 4> motions;
     LoadParameters loads;
     StartParameters start;
     TimeParameters time;
@@ -237,6 +249,10 @@ namespace Supple
      */
     static Parameters
     read(const std::string &file, const std::vector<std::string> &overrides = {});
+
+    /** The subsection of a motion: Motion, Motion 2, ... */
+    static std::string
+    motion_section(unsigned int motion);
 
     /** Where results go unless the command line says otherwise: output/ and the name of the scene.
      */

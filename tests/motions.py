@@ -1,0 +1,72 @@
+"""Prescribed motions: they are followed exactly, their reactions and their work are right."""
+
+import math
+
+import runner
+
+free = {"Constraints/Clamped boundaries": "", "Start/Velocity": "0; 0; 0", "Probes/Boundaries": "end: 2",
+        "Probes/Regions": "moved: y == 0", "Solver/Tolerance": 1e-12, "Output/Frames": "none"}
+
+
+def balance(history):
+    """How far total + dissipated - work strays, over the largest energy."""
+    size = max(abs(row[name]) for row in history for name in ("kinetic", "elastic", "potential", "work"))
+    sums = [row["total"] + row["dissipated"] - row["work"] for row in history]
+    return max(abs(value - sums[0]) for value in sums) / size
+
+
+# Moved as it falls by itself (backward Euler's parabola), a vertex bears no force.
+fall = {**free, "Motion/Of": "vertex 0", "Motion/Displacement": "0; 0; -4.905*t*(t + 0.07)", "Time/Steps": 20}
+probes = runner.simulate(runner.BAR, fall).probes()
+for row in probes:
+    runner.check(abs(row["n56.uz"] + 4.905 * row["time"] * (row["time"] + 0.07)) < 1e-8, "it does not fall freely")
+    runner.check(abs(row["n0.fz"]) < 1e-2, f"a force of {row['n0.fz']} N on a body of 1.9 MN")
+
+# All of it moved: no strain, and the force is mass times acceleration.
+swing = {**free, "Motion/Of": "all", "Motion/Displacement": "sin(t); 0; 0", "Loads/Gravity": "0, 0, 0",
+         "Probes/Regions": "body: y < 13", "Time/Steps": 30}
+results = runner.simulate(runner.BAR, swing)
+for row, last in zip(results.probes()[1:], results.probes()):
+    force = 192000 * (row["body.vx"] - last["body.vx"]) / 0.07
+    runner.check(abs(row["body.fx"] - force) < 1e-6 * 192000, f"force {row['body.fx']}, mass times acceleration {force}")
+runner.check(max(row["elastic"] for row in results.history()) < 1e-6, "a rigid motion strains the body")
+
+# Clamped at one end, shaken at the other in one direction, with everything that can enter the balance.
+for rotation in ["none", "gram-schmidt", "polar"]:
+    for damping in [0, 1]:
+        shaken = {"Corotation/Rotation": rotation, "Motion/Of": "region y == 0", "Start/Velocity": "0; 0; 0",
+                  "Motion/Displacement": "free; free; 2*sin(3*t)", "Damping/Mass factor": 0.3 * damping,
+                  "Damping/Stiffness factor": 0.002 * damping, "Damping/Viscous": 300 * damping,
+                  "Loads/Body force": "1e4*cos(5*t); 0; 0", "Probes/Regions": "moved: y == 0",
+                  "Solver/Tolerance": 1e-12, "Output/Frames": "none"}
+        results = runner.simulate(runner.BAR, shaken)
+        for row in results.probes():
+            runner.check(abs(row["moved.uz"] - 2 * math.sin(3 * row["time"])) < 1e-12, "the motion is not followed")
+        stray = balance(results.history())
+        runner.check(stray < 1e-10, f"{rotation}, damping {damping}: energies out of balance by {stray}")
+        two = runner.simulate(runner.BAR, shaken, ranks=2)
+        columns = [name for name in results.probes()[0] if name != "step"]
+        difference = runner.largest_difference(results.probes(), two.probes(), columns)
+        runner.check(difference < 1e-8, f"one and two processes differ by {difference}")
+
+# Static: pulled by a vertex, the reactions balance, and the work is that of a linear spring.
+pull = {"Motion/Of": "nearest to 2, 0, 2.1", "Motion/Displacement": "0; -0.1*t; 0", "Loads/Gravity": "0, 0, 0",
+        "Time/Steps": 4}
+results = runner.simulate(runner.STATIC, pull)
+last = results.probes()[-1]
+runner.check(abs(last["n28.uy"] + 0.1) < 1e-15 and last["n28.fy"] < -1e5, "the vertex is not pulled")
+for direction in "xyz":
+    net = last["n28.f" + direction] + last["clamp.f" + direction]
+    runner.check(abs(net) < 1e-9 * abs(last["n28.fy"]), f"the reactions add up to {net} N")
+runner.check(abs(results.history()[-1]["elastic"] / (0.5 * 0.1 * -last["n28.fy"]) - 1) < 1e-10, "elastic energy")
+polar = runner.simulate(runner.STATIC, {**pull, "Corotation/Rotation": "polar"})
+runner.check(abs(polar.probes()[-1]["n28.fy"] / last["n28.fy"] - 1) < 0.05, "polar and linear differ")
+
+for entry, value, words in [("Of", "vertex 99", "indices go from 0 to 80"), ("Of", "tip", "nearest to X, Y, Z"),
+                            ("Of", "boundary 9", "no boundary 9"), ("Of", "region x > 9", "no vertex"),
+                            ("Of", "boundary 3", "held or moved already"), ("Displacement", "0; 0", "there must be 3"),
+                            ("Displacement", "0; 0; x +", "Unexpected end"),
+                            ("Displacement", "0; 0; 1/t", "not a finite number at time 0")]:
+    settings = {"Motion/Of": "vertex 0", f"Motion/{entry}": value}
+    status, _, error = runner.run("--check", runner.BAR, *runner.overrides(settings))
+    runner.check(status == 1 and words in error, f"{entry} = {value}: {status} {error}")
