@@ -233,7 +233,7 @@ namespace Supple
       }
     else
       model.body.internal_force(net, y.block(0), model.effort);
-    net.sadd(-1., 1., model.loads.force(time));
+    net.sadd(-1., 1., model.loads.force(time, previous.block(0)));
 
     if (damping.mass_factor > 0.)
       {
@@ -420,11 +420,11 @@ namespace Supple
         report.expended += report.dt * (v * damping_force);
         force += damping_force;
       }
-    force -= model.loads.force(time);
+    force -= model.loads.force(time, previous.block(0));
     set_reactions(force);
 
-    if (model.loads.has_body_force())
-      report.load_work = model.loads.body_force(time) * du;
+    if (model.loads.any_applied())
+      report.load_work = model.loads.applied_force(time, previous.block(0)) * du;
     if (model.constraints.move())
       report.load_work += reactions() * du;
   }

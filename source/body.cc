@@ -230,8 +230,8 @@ namespace Supple
   }
 
 
-  std::vector<bool>
-  Body::boundary_nodes(const unsigned int boundary_id, const std::string &origin) const
+  void
+  Body::require_boundary(const unsigned int boundary_id, const std::string &origin) const
   {
     if (mesh.boundaries.find(boundary_id) == mesh.boundaries.end())
       {
@@ -242,6 +242,43 @@ namespace Supple
         throw InputError(origin + ": the body has no boundary " + std::to_string(boundary_id) +
                          ". It has: " + known + ".");
       }
+  }
+
+
+  std::vector<std::array<unsigned int, 3>>
+  Body::boundary_faces(const std::vector<unsigned int> &boundary_ids,
+                       const std::string &origin) const
+  {
+    for (const unsigned int id : boundary_ids)
+      require_boundary(id, origin);
+
+    std::vector<std::array<unsigned int, 3>> faces;
+    std::vector<types::global_dof_index> dofs(fe.n_dofs_per_face());
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary() &&
+              std::count(boundary_ids.begin(), boundary_ids.end(), cell->face(f)->boundary_id()) >
+                0)
+            {
+              cell->face(f)->get_dof_indices(dofs);
+              std::array<unsigned int, 3> face;
+              for (unsigned int v = 0; v < 3; ++v)
+                face[v] = partitioner->global_to_local(dofs[3 * v]) / 3;
+              const auto normal = cross_product_3d(position(face[1]) - position(face[0]),
+                                                   position(face[2]) - position(face[0]));
+              if (normal * (cell->center() - position(face[0])) > 0.)
+                std::swap(face[1], face[2]);
+              faces.push_back(face);
+            }
+    return faces;
+  }
+
+
+  std::vector<bool>
+  Body::boundary_nodes(const unsigned int boundary_id, const std::string &origin) const
+  {
+    require_boundary(boundary_id, origin);
 
     // A face is seen by the process that owns its cell; its nodes may be owned by another one.
     Vector marked;

@@ -34,7 +34,7 @@ namespace Supple
   {
     model.body.update_rotations(displacement, model.effort);
     model.body.internal_force(residual, displacement, model.effort);
-    residual.sadd(-1., load_factor, model.loads.force(1.));
+    residual.sadd(-1., load_factor, model.loads.force(1., displacement));
     free_residual = residual;
     model.constraints.set_zero(free_residual);
   }
@@ -46,7 +46,7 @@ namespace Supple
     const GhostValues values(displacement);
     const double elastic = model.body.tetrahedra->sums(values.data(), nullptr).elastic;
     return dealii::Utilities::MPI::sum(elastic, model.body.mesh.communicator) -
-           load_factor * (model.loads.force(1.) * displacement);
+           load_factor * (model.loads.force(1., displacement) * displacement);
   }
 
 
@@ -106,8 +106,8 @@ namespace Supple
         set_reactions(correction);
         correction = u;
         correction -= start;
-        if (model.loads.has_body_force())
-          report.load_work = load_factor * (model.loads.body_force(1.) * correction);
+        if (model.loads.any_applied())
+          report.load_work = load_factor * (model.loads.applied_force(1., u) * correction);
       }
     return report;
   }
@@ -117,7 +117,8 @@ namespace Supple
   StaticEquilibrium::find_equilibrium(Vector &u, const double load_factor, StepReport &report)
   {
     const TimeParameters &time = model.parameters.time;
-    const bool linear          = model.body.rotation == RotationMethod::none;
+    const bool constant        = model.body.rotation == RotationMethod::none; // the operator
+    const bool linear          = constant && !model.loads.follow();
 
     if (model.constraints.move())
       model.constraints.set_displacement(u, load_factor);
@@ -125,7 +126,7 @@ namespace Supple
     for (;;)
       {
         // What is out of balance is small beside the loads and the reactions, or beside round-off.
-        const double size    = load_factor * model.loads.force(1.).l2_norm() + residual.l2_norm();
+        const double size = load_factor * model.loads.force(1., u).l2_norm() + residual.l2_norm();
         const double balance = free_residual.l2_norm();
         if (!std::isfinite(balance))
           throw ComputationError("the forces are not finite any more");
@@ -141,7 +142,7 @@ namespace Supple
             throw ComputationError(text.str());
           }
 
-        if (!linear || !prepared)
+        if (!constant || !prepared)
           {
             model.implicit_operator.assemble_stiffness();
             model.solver.prepare(u);

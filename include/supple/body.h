@@ -80,12 +80,24 @@ namespace Supple
     std::vector<bool>
     boundary_nodes(unsigned int boundary_id, const std::string &origin) const;
 
+    /**
+     * The faces of boundaries that touch a node of this process, their nodes in the order that
+     * makes the normal point out of the body. @throws InputError beginning with @p origin if there
+     * is no such boundary
+     */
+    std::vector<std::array<unsigned int, 3>>
+    boundary_faces(const std::vector<unsigned int> &boundary_ids, const std::string &origin) const;
+
     /** The nodes where an expression is not zero. @throws InputError beginning with @p origin if
      * there are none. */
     std::vector<bool>
     region_nodes(const std::string &expression, const std::string &origin) const;
 
   private:
+    /** @throws InputError beginning with @p origin */
+    void
+    require_boundary(unsigned int boundary_id, const std::string &origin) const;
+
     std::map<unsigned int, IsotropicMaterial> materials;
 
     void

@@ -6,25 +6,38 @@
 
 namespace Supple
 {
-  /** What pushes the body: gravity and a body force, both independent of the deformation. */
+  /** What pushes the body: gravity, body force, nodal forces, traction, and pressure that may
+   * follow the surface. */
   class Loads
   {
   public:
+    /** @throws InputError */
     Loads(const Body &body, const Parameters &parameters);
 
-    /** The load vector [N] at a time [s]; held entries are not set to zero. Valid until the next
-     * call. */
+    /**
+     * The load vector [N]; held entries are not set to zero. Valid until the next call.
+     * @param time         [s]
+     * @param displacement of the surface that pressure follows [m]
+     */
     const Vector &
-    force(double time) const;
+    force(double time, const Vector &displacement) const;
 
     /** The part of force() that is no gravity, and does work which potential() does not count. */
     const Vector &
-    body_force(double time) const;
+    applied_force(double time, const Vector &displacement) const;
 
+    /** Whether there is anything but gravity. */
     bool
-    has_body_force() const
+    any_applied() const
     {
-      return !expression.is_zero();
+      return applied;
+    }
+
+    /** Whether the force depends on the displacement. */
+    bool
+    follow() const
+    {
+      return pressure_follows && !pressure.is_zero();
     }
 
     /** Potential energy of gravity [J], zero at rest position. */
@@ -32,13 +45,35 @@ namespace Supple
     potential(const Vector &displacement) const;
 
   private:
+    using Faces = std::vector<std::array<unsigned int, 3>>;
+
     void
-    evaluate(double time) const;
+    add_body_force(double time, Vector &force) const;
+
+    void
+    add_nodal_force(double time, Vector &force) const;
+
+    void
+    add_traction(double time, Vector &force) const;
+
+    void
+    add_pressure(double time, const Vector &displacement, Vector &force) const;
+
+    /** Values of an expression at all local nodes, node by node. */
+    std::vector<double>
+    nodal_values(const Expression &expression, double time) const;
 
     const Body &body;
-    const Expression expression;
+    const Expression body_force, nodal_force, traction, pressure;
+    const bool pressure_follows;
+    bool applied; ///< anything but gravity
+    bool time_dependent;
     Vector gravity;
-    mutable Vector applied, total;
+    std::vector<unsigned int> forced_nodes; ///< owned
+    Faces traction_faces, pressure_faces;
+
+    // Dead loads are kept from call to call.
+    mutable Vector dead, live, total;
     mutable bool evaluated = false;
     mutable double evaluation_time;
   };

@@ -130,7 +130,14 @@ namespace Supple
   struct LoadParameters
   {
     dealii::Tensor<1, 3> gravity;
-    std::string body_force = "0; 0; 0";
+    std::string body_force     = "0; 0; 0"; ///< [N/m^3]
+    std::string nodal_force    = "0; 0; 0"; ///< [N]
+    std::string nodal_force_on = "all";
+    std::string traction       = "0; 0; 0"; ///< [Pa]
+    std::vector<unsigned int> traction_on;
+    std::string pressure = "0"; ///< [Pa]
+    std::vector<unsigned int> pressure_on;
+    bool pressure_follows = true;
 
     void
     declare(dealii::ParameterHandler &prm);
