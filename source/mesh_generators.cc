@@ -84,33 +84,36 @@ namespace Supple
   }
 
 
-  SerialMesh
-  hollow_cylinder_mesh(const MeshParameters &parameters)
+  namespace
   {
-    SerialMesh mesh;
-    const unsigned int n        = parameters.sectors;
-    const unsigned int n_layers = parameters.layers;
-    const unsigned int n_rings  = parameters.rings;
+    using Triangle = std::array<unsigned int, 3>;
 
-    for (unsigned int ring = 0; ring < n_rings; ++ring)
-      for (unsigned int circle = 0; circle <= n_layers; ++circle)
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            const double radius =
-              parameters.inner_radius +
-              (parameters.outer_radius - parameters.inner_radius) * circle / n_layers;
-            const double angle = 2. * M_PI * (i + 0.5 * (circle % 2)) / n;
-            mesh.vertices.emplace_back(radius * std::cos(angle),
-                                       radius * std::sin(angle),
-                                       parameters.height * (double(ring) / (n_rings - 1) - 0.5));
-          }
-    const auto vertex =
-      [&](const unsigned int ring, const unsigned int circle, const unsigned int i) {
-        return (ring * (n_layers + 1) + circle) * n + i % n;
-      };
-    const auto add_wedge = [&](const std::array<unsigned int, 3> &low,
-                               const std::array<unsigned int, 3> &high,
-                               const bool outer) {
+    void
+    add_cylinder_vertices(SerialMesh &mesh, const MeshParameters &parameters)
+    {
+      for (unsigned int ring = 0; ring < parameters.rings; ++ring)
+        for (unsigned int circle = 0; circle <= parameters.layers; ++circle)
+          for (unsigned int i = 0; i < parameters.sectors; ++i)
+            {
+              const double radius =
+                parameters.inner_radius +
+                (parameters.outer_radius - parameters.inner_radius) * circle / parameters.layers;
+              const double angle = 2. * M_PI * (i + 0.5 * (circle % 2)) / parameters.sectors;
+              mesh.vertices.emplace_back(radius * std::cos(angle),
+                                         radius * std::sin(angle),
+                                         parameters.height *
+                                           (double(ring) / (parameters.rings - 1) - 0.5));
+            }
+    }
+
+
+    /**
+     * Three cells between a triangle and the one above it. That of the inner circle has two corners
+     * there and the third outside; that of the outer circle the other way round.
+     */
+    void
+    add_wedge(SerialMesh &mesh, const Triangle &low, const Triangle &high, const bool outer)
+    {
       if (!outer)
         {
           add_cell(mesh, {{low[0], high[0], low[1], low[2]}});
@@ -123,41 +126,66 @@ namespace Supple
           add_cell(mesh, {{low[0], low[1], high[1], high[2]}});
           add_cell(mesh, {{low[0], high[1], high[0], high[2]}});
         }
-    };
+    }
 
-    for (unsigned int ring = 0; ring + 1 < n_rings; ++ring)
-      for (unsigned int layer = 0; layer < n_layers; ++layer)
+
+    /** The faces of a wedge that lie on the surface. */
+    void
+    add_wedge_boundary(SerialMesh &mesh,
+                       const MeshParameters &parameters,
+                       const Triangle &low,
+                       const Triangle &high,
+                       const bool outer,
+                       const unsigned int ring,
+                       const unsigned int layer)
+    {
+      if (ring == 0)
+        mesh.boundary.push_back({low, 2});
+      if (ring + 2 == parameters.rings)
+        mesh.boundary.push_back({high, 3});
+      if (!outer && layer == 0)
+        {
+          mesh.boundary.push_back({{{low[0], high[0], low[1]}}, 0});
+          mesh.boundary.push_back({{{high[0], high[1], low[1]}}, 0});
+        }
+      if (outer && layer + 1 == parameters.layers)
+        {
+          mesh.boundary.push_back({{{low[0], low[1], high[1]}}, 1});
+          mesh.boundary.push_back({{{low[0], high[1], high[0]}}, 1});
+        }
+    }
+  } // namespace
+
+
+  SerialMesh
+  hollow_cylinder_mesh(const MeshParameters &parameters)
+  {
+    SerialMesh mesh;
+    add_cylinder_vertices(mesh, parameters);
+
+    const unsigned int n = parameters.sectors;
+    const auto vertex =
+      [&](const unsigned int ring, const unsigned int circle, const unsigned int i) {
+        return (ring * (parameters.layers + 1) + circle) * n + i % n;
+      };
+    for (unsigned int ring = 0; ring + 1 < parameters.rings; ++ring)
+      for (unsigned int layer = 0; layer < parameters.layers; ++layer)
         for (unsigned int i = 0; i < n; ++i)
           {
             // Layers turn alternately ahead and back, so that their cuts fit to each other.
             const unsigned int next = layer % 2 == 0 ? i + 1 : i + n - 1;
-            const auto corners      = [&](const unsigned int section, const bool outer) {
+            const auto corners = [&](const unsigned int section, const bool outer) -> Triangle {
               const unsigned int inner_next = vertex(section, layer, next);
               const unsigned int outer_here = vertex(section, layer + 1, i);
-              return outer ? std::array<unsigned int, 3>{{vertex(section, layer + 1, next),
-                                                          outer_here,
-                                                          inner_next}}
-                                : std::array<unsigned int, 3>{
-                               {inner_next, vertex(section, layer, i), outer_here}};
+              if (outer)
+                return {{vertex(section, layer + 1, next), outer_here, inner_next}};
+              return {{inner_next, vertex(section, layer, i), outer_here}};
             };
             for (const bool outer : {false, true})
               {
-                const auto low = corners(ring, outer), high = corners(ring + 1, outer);
-                add_wedge(low, high, outer);
-                if (ring == 0)
-                  mesh.boundary.push_back({low, 2});
-                if (ring + 2 == n_rings)
-                  mesh.boundary.push_back({high, 3});
-                if (!outer && layer == 0)
-                  {
-                    mesh.boundary.push_back({{{low[0], high[0], low[1]}}, 0});
-                    mesh.boundary.push_back({{{high[0], high[1], low[1]}}, 0});
-                  }
-                if (outer && layer + 1 == n_layers)
-                  {
-                    mesh.boundary.push_back({{{low[0], low[1], high[1]}}, 1});
-                    mesh.boundary.push_back({{{low[0], high[1], high[0]}}, 1});
-                  }
+                const Triangle low = corners(ring, outer), high = corners(ring + 1, outer);
+                add_wedge(mesh, low, high, outer);
+                add_wedge_boundary(mesh, parameters, low, high, outer, ring, layer);
               }
           }
     return mesh;

@@ -71,6 +71,36 @@ namespace Supple
 
 
   void
+  MeshParameters::declare_cylinder(ParameterHandler &prm)
+  {
+    const Range positive = Range::between(0, infinity);
+    add(prm, "Cylinder inner radius", inner_radius, "m", positive, "Radius of the cavity.");
+    add(prm, "Cylinder outer radius", outer_radius, "m", positive, "Radius of the outer wall.");
+    add(prm, "Cylinder height", height, "m", positive, "Length along z; the middle is at z = 0.");
+    add(prm,
+        "Cylinder sectors",
+        sectors,
+        "none",
+        Range::whole_number(3),
+        "Number of vertices on each circle.");
+    add(
+      prm,
+      "Cylinder rings",
+      rings,
+      "none",
+      Range::whole_number(2),
+      "Number of cross sections with vertices, both ends included. Boundary ids: 0 (inner wall), 1 "
+      "(outer wall), 2 (bottom), 3 (top).");
+    add(prm,
+        "Cylinder layers",
+        layers,
+        "none",
+        Range::whole_number(1),
+        "Number of layers of cells through the wall.");
+  }
+
+
+  void
   MeshParameters::declare(ParameterHandler &prm)
   {
     const Range positive = Range::between(0, infinity);
@@ -104,29 +134,7 @@ namespace Supple
       "the "
       "smallest to the largest coordinates. The faces of the box have the boundary ids 0 (smallest "
       "x), 1 (largest x), 2, 3 (y), 4, 5 (z).");
-    add(prm, "Cylinder inner radius", inner_radius, "m", positive, "Radius of the cavity.");
-    add(prm, "Cylinder outer radius", outer_radius, "m", positive, "Radius of the outer wall.");
-    add(prm, "Cylinder height", height, "m", positive, "Length along z; the middle is at z = 0.");
-    add(prm,
-        "Cylinder sectors",
-        sectors,
-        "none",
-        Range::whole_number(3),
-        "Number of vertices on each circle.");
-    add(
-      prm,
-      "Cylinder rings",
-      rings,
-      "none",
-      Range::whole_number(2),
-      "Number of cross sections with vertices, both ends included. Boundary ids: 0 (inner wall), 1 "
-      "(outer wall), 2 (bottom), 3 (top).");
-    add(prm,
-        "Cylinder layers",
-        layers,
-        "none",
-        Range::whole_number(1),
-        "Number of layers of cells through the wall.");
+    declare_cylinder(prm);
     add(prm,
         "File",
         file,

@@ -151,10 +151,9 @@ namespace
   }
 
 
-  void
-  test_rotations()
+  std::vector<Matrix3<double>>
+  rotation_cases()
   {
-    std::printf("Rotations of 2000 random matrices and of extreme ones\n");
     std::mt19937 generator(2);
     std::normal_distribution<> normal;
     std::vector<Matrix3<double>> cases;
@@ -186,7 +185,15 @@ namespace
     add_diagonal(0., 0., 0.);
     add_diagonal(std::nan(""), 1., 1.);
     add_diagonal(INFINITY, 1., 1.);
+    return cases;
+  }
 
+
+  void
+  test_rotations()
+  {
+    std::printf("Rotations of 2000 random matrices and of extreme ones\n");
+    const auto cases = rotation_cases();
     for (const RotationMethod method : {RotationMethod::polar, RotationMethod::gram_schmidt})
       {
         double defect = 0., determinant_error = 0., trace_loss = 0.;
@@ -281,6 +288,65 @@ namespace
 
 
   void
+  test_resultants(const JitteredBox &box,
+                  const Nodal &u,
+                  const Nodal &f,
+                  const RotationMethod method)
+  {
+    double net = 0., moment = 0.;
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        double sum = 0., turn = 0.;
+        const unsigned i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+        for (std::size_t node = 0; node < box.positions.size(); ++node)
+          {
+            const auto x = [&](const unsigned int d) {
+              return box.positions[node][d] + u[3 * node + d];
+            };
+            sum += f[3 * node + i];
+            turn += x(i1) * f[3 * node + i2] - x(i2) * f[3 * node + i1];
+          }
+        net    = std::max(net, std::abs(sum));
+        moment = std::max(moment, std::abs(turn));
+      }
+    report("  net force", net / norm(f), 1e-13);
+    if (method == RotationMethod::polar)
+      report("  net moment", moment / norm(f), 1e-13);
+    else
+      report_larger("  gram-schmidt net moment", moment / norm(f), 1e-4);
+  }
+
+
+  void
+  test_turned(const JitteredBox &box, const Nodal &u, const RotationMethod method)
+  {
+    Tetrahedra tetrahedra = box.tetrahedra();
+    const Nodal u_turned  = turned(box, u, rigid_rotation(2.));
+    const double energy   = box.own_energy(tetrahedra, method, u);
+    report("  change of the energy when the deformed body is turned",
+           std::abs(box.own_energy(tetrahedra, method, u_turned) / energy - 1.),
+           1e-13);
+
+    // The whole scene turned: body at rest and displacement.
+    JitteredBox other = box;
+    const Nodal rest  = turned(box, Nodal(u.size()), rigid_rotation(2.));
+    Nodal moved       = u_turned;
+    for (std::size_t dof = 0; dof < u.size(); ++dof)
+      {
+        other.positions[dof / 3][dof % 3] += rest[dof];
+        moved[dof] -= rest[dof];
+      }
+    Tetrahedra turned_tetrahedra = other.tetrahedra();
+    const double change =
+      std::abs(other.own_energy(turned_tetrahedra, method, moved) / energy - 1.);
+    if (method == RotationMethod::polar)
+      report("  change of the energy when the scene is turned", change, 1e-13);
+    else
+      report_larger("  gram-schmidt change of the energy when the scene is turned", change, 1e-4);
+  }
+
+
+  void
   test_energy(const JitteredBox &box)
   {
     std::printf("Force against differences of the elastic energy, largely deformed\n");
@@ -308,53 +374,8 @@ namespace
           report_larger("  gram-schmidt has no energy: difference over force",
                         difference / norm(f),
                         1e-4);
-
-        double net = 0., moment = 0.;
-        for (unsigned int i = 0; i < 3; ++i)
-          {
-            double sum = 0., turn = 0.;
-            const unsigned i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-            for (std::size_t node = 0; node < box.positions.size(); ++node)
-              {
-                const auto x = [&](const unsigned int d) {
-                  return box.positions[node][d] + u[3 * node + d];
-                };
-                sum += f[3 * node + i];
-                turn += x(i1) * f[3 * node + i2] - x(i2) * f[3 * node + i1];
-              }
-            net    = std::max(net, std::abs(sum));
-            moment = std::max(moment, std::abs(turn));
-          }
-        report("  net force", net / norm(f), 1e-13);
-        if (method == RotationMethod::polar)
-          report("  net moment", moment / norm(f), 1e-13);
-        else
-          report_larger("  gram-schmidt net moment", moment / norm(f), 1e-4);
-
-        const Nodal u_turned = turned(box, u, rigid_rotation(2.));
-        const double energy  = box.own_energy(tetrahedra, method, u);
-        report("  change of the energy when the deformed body is turned",
-               std::abs(box.own_energy(tetrahedra, method, u_turned) / energy - 1.),
-               1e-13);
-
-        // The whole scene turned: body at rest and displacement.
-        JitteredBox other = box;
-        const Nodal rest  = turned(box, Nodal(u.size()), rigid_rotation(2.));
-        Nodal moved       = u_turned;
-        for (std::size_t dof = 0; dof < u.size(); ++dof)
-          {
-            other.positions[dof / 3][dof % 3] += rest[dof];
-            moved[dof] -= rest[dof];
-          }
-        Tetrahedra turned_tetrahedra = other.tetrahedra();
-        const double change =
-          std::abs(other.own_energy(turned_tetrahedra, method, moved) / energy - 1.);
-        if (method == RotationMethod::polar)
-          report("  change of the energy when the scene is turned", change, 1e-13);
-        else
-          report_larger("  gram-schmidt change of the energy when the scene is turned",
-                        change,
-                        1e-4);
+        test_resultants(box, u, f, method);
+        test_turned(box, u, method);
       }
   }
 

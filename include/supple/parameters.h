@@ -48,6 +48,10 @@ namespace Supple
 
     void
     check(const Parameters &parameters) const;
+
+  private:
+    void
+    declare_cylinder(dealii::ParameterHandler &prm);
   };
 
 
