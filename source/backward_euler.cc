@@ -126,13 +126,8 @@ namespace Supple
     ode.mass_times_vector = [this](const double, const State &v, State &Mv) {
       return guarded([&] {
         Mv.block(0) = v.block(0);
-        if (model.constraints.move())
-          {
-            full_mass_product(Mv.block(1), v.block(1));
-            model.constraints.copy_held(Mv.block(1), v.block(1));
-          }
-        else
-          model.implicit_operator.mass_vmult(Mv.block(1), v.block(1));
+        mass_product(Mv.block(1), v.block(1));
+        model.constraints.copy_held(Mv.block(1), v.block(1));
       });
     };
 
@@ -237,7 +232,7 @@ namespace Supple
 
     if (damping.mass_factor > 0.)
       {
-        model.implicit_operator.mass_vmult(scratch, y.block(1));
+        mass_product(scratch, y.block(1));
         net.add(-damping.mass_factor, scratch);
       }
     if (damping.viscous > 0.)
@@ -245,6 +240,16 @@ namespace Supple
     model.constraints.set_zero(net);
     if (model.constraints.move())
       model.constraints.copy_held(net, prescribed_acceleration);
+  }
+
+
+  void
+  BackwardEuler::mass_product(Vector &y, const Vector &x) const
+  {
+    if (model.constraints.move())
+      full_mass_product(y, x);
+    else
+      model.implicit_operator.mass_vmult(y, x);
   }
 
 

@@ -53,6 +53,11 @@ namespace Supple
     void
     solve_eliminated(const State &r, State &z);
 
+    /** y = M x for free rows; held entries of x count if anything is moved, and are zero otherwise.
+     */
+    void
+    mass_product(Vector &y, const Vector &x) const;
+
     /** y = M x on all rows, held ones included. */
     void
     full_mass_product(Vector &y, const Vector &x) const;
