@@ -363,7 +363,7 @@ namespace Supple
         ode_time += report.dt;
         ode.solve_ode_incrementally(state, ode_time);
         throw_what_failed();
-        if (!std::isfinite(state.l2_norm()))
+        if (!all_finite(state.block(0)) || !all_finite(state.block(1)))
           throw ComputationError("the motion is not finite any more");
       }
     catch (...)

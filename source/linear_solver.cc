@@ -120,9 +120,9 @@ namespace Supple
   {
     const PhaseTimer timer(effort, Phase::solve);
 
-    const double size = b.l2_norm();
-    if (!std::isfinite(size))
+    if (!all_finite(b))
       throw ComputationError("the forces are not finite numbers");
+    const double size = b.l2_norm();
     if (size == 0.)
       {
         x = 0.;
@@ -138,8 +138,6 @@ namespace Supple
         x += correction;
         relative = residual_norm(x, b) / size;
       }
-    if (!std::isfinite(relative))
-      throw ComputationError("the linear solver " + name() + " gave no finite numbers");
     if (relative > std::max(1e-6, 10. * parameters.tolerance))
       {
         std::ostringstream text;
@@ -159,6 +157,8 @@ namespace Supple
   double
   LinearSolver::residual_norm(const Vector &x, const Vector &b)
   {
+    if (!all_finite(x))
+      throw ComputationError("the linear solver " + name() + " gave no finite numbers");
     A.vmult(residual, x);
     residual.sadd(-1., 1., b);
     return residual.l2_norm();

@@ -53,7 +53,7 @@ namespace Supple
           body.initialize(*vector);
         Vector rest;
         body.initialize(rest);
-        if (!std::isfinite(force(0., rest).l2_norm()))
+        if (!all_finite(force(0., rest)))
           throw InputError(parameters.origin("Loads/Body force") +
                            ": the loads are not finite numbers at every vertex at time 0.");
       }

@@ -157,14 +157,14 @@ namespace Supple
             state.block(b).local_element(3 * node + i) =
               expression.value(body.position(node), 0., i);
         constraints.set_zero(state.block(b));
-        if (!std::isfinite(state.block(b).l2_norm()))
+        if (!all_finite(state.block(b)))
           throw InputError(parameters.origin(starts[b].first) +
                            ": it is not a finite number at every vertex.");
       }
     if (constraints.move())
       {
         constraints.set_displacement(state.block(0), 0.);
-        if (!std::isfinite(state.block(0).l2_norm()))
+        if (!all_finite(state.block(0)))
           throw InputError("A displacement of subsection Motion is not a finite number at time 0.");
       }
   }
@@ -192,10 +192,11 @@ namespace Supple
            " vertices in " + mesh.extent() + " m, " + volume.str() + " m^3");
     if (in_detail)
       print_mesh_details();
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     line("unknowns",
          std::to_string(body.dof_handler.n_dofs()) + ", of which " +
            std::to_string(constraints.n_held) + " are held; " +
-           std::to_string(Utilities::MPI::n_mpi_processes(communicator)) + " process(es)");
+           (n_ranks == 1 ? "1 process" : std::to_string(n_ranks) + " processes"));
     line("model", rotations[static_cast<unsigned int>(body.rotation)]);
     line("time", time.str());
     line("solver", solver->name() + " (" + solver->reason + ")");

@@ -125,11 +125,12 @@ namespace Supple
     update_residual(u, load_factor);
     for (;;)
       {
+        if (!all_finite(residual))
+          throw ComputationError("the forces are not finite any more");
+
         // What is out of balance is small beside the loads and the reactions, or beside round-off.
         const double size = load_factor * model.loads.force(1., u).l2_norm() + residual.l2_norm();
         const double balance = free_residual.l2_norm();
-        if (!std::isfinite(balance))
-          throw ComputationError("the forces are not finite any more");
         if (linear ? report.newton_iterations == 1
                    : balance <= time.newton_tolerance * size + force_accuracy)
           return;

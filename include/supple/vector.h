@@ -64,6 +64,20 @@ namespace Supple
   }
 
 
+  /** Whether every entry on every process is a finite number. (deal.II's norms abort on others in
+   * Debug.) */
+  inline bool
+  all_finite(const Vector &vector)
+  {
+    const double *const begin = vector.begin();
+    const bool here           = std::all_of(begin,
+                                  begin + vector.locally_owned_size(),
+                                  [](const double value) { return std::isfinite(value); });
+    return dealii::Utilities::MPI::min(here ? 1 : 0,
+                                       vector.get_partitioner()->get_mpi_communicator()) == 1;
+  }
+
+
   /** The largest length, over all vertices, of the difference of two vectors. */
   inline double
   largest_vertex_distance(const Vector &a, const Vector &b)
