@@ -120,6 +120,8 @@ namespace Supple
       return guarded([&] {
         f.block(0) = y.block(1);
         net_force(time, y, f.block(1));
+        if (!all_finite(f.block(1)))
+          throw ComputationError("the forces are not finite numbers");
       });
     };
 

@@ -4,7 +4,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <cmath>
 #include <sstream>
 
 namespace Supple
