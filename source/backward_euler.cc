@@ -97,7 +97,8 @@ namespace Supple
       }
     catch (...)
       {
-        failure = std::current_exception();
+        if (!failure) // what failed first is the reason for the rest
+          failure = std::current_exception();
         return -1;
       }
   }

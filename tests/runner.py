@@ -8,7 +8,7 @@ import subprocess
 import sys
 import tempfile
 
-SUPPLE = sys.argv[1]
+SUPPLE = os.path.abspath(sys.argv[1])
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 DATA = ROOT / "tests" / "data"
 BAR = ROOT / "parameters" / "bar" / "large.prm"
