@@ -31,6 +31,15 @@ namespace Supple
 
 
   void
+  SymmetricBlockMatrix::add_to_diagonal(const double factor)
+  {
+    for (std::size_t node = 0; node < pattern.n_owned; ++node)
+      for (unsigned int i = 0; i < 3; ++i)
+        diagonal[9 * node + 4 * i] += factor;
+  }
+
+
+  void
   SymmetricBlockMatrix::vmult(double *y, const double *x) const
   {
     // Row i comes after all rows it adds to, so that y[i] can be set and added to in one sweep.

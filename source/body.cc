@@ -86,13 +86,16 @@ namespace Supple
         if (!touches_owned && !cell->is_locally_owned())
           continue;
         tetrahedron.material = material(cell->material_id());
-        tetrahedron.owned    = cell->is_locally_owned();
+        if (parameters.material.vertex_mass > 0.)
+          tetrahedron.material.density = 0.;
+        tetrahedron.owned = cell->is_locally_owned();
         cells.push_back(tetrahedron);
         cell_nodes.push_back(tetrahedron.nodes);
         active_cell.push_back(cell->active_cell_index());
         cell_material.push_back(cell->material_id());
       }
-    tetrahedra = std::make_unique<Tetrahedra>(positions, cells, parameters.material.lumped);
+    tetrahedra = std::make_unique<Tetrahedra>(
+      positions, n_owned, cells, parameters.material.lumped, parameters.material.vertex_mass);
   }
 
 

@@ -85,9 +85,7 @@ namespace Supple
     A.set_zero();
     body.tetrahedra->add_tangent(mass_factor, stiffness_factor, A);
     if (diagonal_term != 0.)
-      for (std::size_t node = 0; node < pattern.n_owned; ++node)
-        for (unsigned int i = 0; i < 3; ++i)
-          A.diagonal[9 * node + 4 * i] += diagonal_term;
+      A.add_to_diagonal(diagonal_term);
     for (const std::size_t position : masked_diagonal)
       A.diagonal[position] = 0.;
     for (const std::size_t position : masked_lower)

@@ -225,6 +225,12 @@ namespace Supple
                lumped,
                {{"consistent", false}, {"lumped", true}},
                "Consistent mass matrix, or all mass of a cell shared evenly by its vertices.");
+    add(prm,
+        "Mass per vertex",
+        vertex_mass,
+        "kg",
+        Range::at_least(0),
+        "If positive, every vertex has this mass, and densities count for nothing.");
     prm.leave_subsection();
   }
 
@@ -412,13 +418,26 @@ namespace Supple
         displacement,
         "m",
         Range::expressions(3),
-        "Displacement at time 0; zero where the body is held.");
+        "Displacement at time 0, after the rotation below; zero where the body is held.");
     add(prm,
         "Velocity",
         velocity,
         "m/s",
         Range::expressions(3),
         "Velocity at time 0; zero where the body is held.");
+    add(prm,
+        "Rotation",
+        rotation,
+        "degrees",
+        RangeList::three(Range::finite()),
+        "Rotation of the body at time 0: the axis, as long as the angle. What is held keeps its "
+        "place.");
+    add(prm,
+        "Rotation center",
+        rotation_center,
+        "m",
+        RangeList::three(Range::finite()),
+        "A point on the axis of this rotation.");
     prm.leave_subsection();
   }
 

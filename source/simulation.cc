@@ -5,6 +5,7 @@
 #include <supple/summary.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/physics/transformations.h>
 
 #include <cmath>
 #include <filesystem>
@@ -135,6 +136,25 @@ namespace Supple
   }
 
 
+  void
+  Simulation::turn(Vector &displacement) const
+  {
+    const double degrees = parameters.start.rotation.norm();
+    if (degrees == 0.)
+      return;
+    const auto R =
+      Physics::Transformations::Rotations::rotation_matrix_3d(parameters.start.rotation / degrees,
+                                                              degrees * numbers::PI / 180.);
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      {
+        const Tensor<1, 3> arm = body.position(node) - parameters.start.rotation_center;
+        const Tensor<1, 3> u   = R * arm - arm;
+        for (unsigned int i = 0; i < 3; ++i)
+          displacement.local_element(3 * node + i) = u[i];
+      }
+  }
+
+
   /** A static problem has no velocity, so its state has one block only. */
   void
   Simulation::create_initial_state()
@@ -147,14 +167,13 @@ namespace Supple
     const std::array<std::pair<const char *, std::string>, 2> starts = {
       {{"Start/Displacement", parameters.start.displacement},
        {"Start/Velocity", parameters.start.velocity}}};
+    turn(state.block(0));
     for (unsigned int b = 0; b < state.n_blocks(); ++b)
       {
         const Expression expression(starts[b].second, 3, parameters.origin(starts[b].first));
-        if (expression.is_zero())
-          continue;
-        for (unsigned int node = 0; node < body.n_owned; ++node)
+        for (unsigned int node = 0; node < body.n_owned && !expression.is_zero(); ++node)
           for (unsigned int i = 0; i < 3; ++i)
-            state.block(b).local_element(3 * node + i) =
+            state.block(b).local_element(3 * node + i) +=
               expression.value(body.position(node), 0., i);
         constraints.set_zero(state.block(b));
         if (!all_finite(state.block(b)))

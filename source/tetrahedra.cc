@@ -55,10 +55,14 @@ namespace Supple
 
 
   Tetrahedra::Tetrahedra(const std::vector<std::array<double, 3>> &positions,
+                         const unsigned int n_owned,
                          const std::vector<Tetrahedron> &cells,
-                         const bool lumped_mass)
+                         const bool lumped_mass,
+                         const double vertex_mass)
     : n_cells(cells.size())
+    , n_owned(n_owned)
     , lumped_mass(lumped_mass)
+    , vertex_mass(vertex_mass)
     , batches((cells.size() + n_lanes - 1) / n_lanes, Batch{}) // empty lanes: zero volume, node 0
     , positions(positions)
   {
@@ -281,6 +285,9 @@ namespace Supple
   {
     for (const Batch &batch : batches)
       scatter(batch, mass_product(batch, gather(batch, w)), y);
+    if (vertex_mass > 0.)
+      for (std::size_t dof = 0; dof < 3 * positions.size(); ++dof)
+        y[dof] += vertex_mass * w[dof];
   }
 
 
@@ -347,6 +354,8 @@ namespace Supple
         for (unsigned int p = 0; p < 6; ++p)
           add_block(lower_pairs[p][0], lower_pairs[p][1], slots[b].lower[p], A.lower.data());
       }
+    if (vertex_mass > 0.)
+      A.add_to_diagonal(mass_factor * vertex_mass);
   }
 
 
@@ -364,6 +373,8 @@ namespace Supple
               M.lower[slots[b].lower[p][lane]] += other[lane];
           }
       }
+    for (unsigned int node = 0; node < n_owned; ++node)
+      M.diagonal[node] += vertex_mass;
   }
 
 
@@ -374,6 +385,8 @@ namespace Supple
       for (unsigned int lane = 0; lane < n_lanes; ++lane)
         for (unsigned int a = 0; a < 4; ++a)
           mass[batch.nodes[a][lane]] += 0.25 * batch.density[lane] * batch.volume[lane];
+    for (std::size_t node = 0; node < positions.size(); ++node)
+      mass[node] += vertex_mass;
   }
 
 
@@ -398,7 +411,11 @@ namespace Supple
     CellSums sums;
     add_deformation(displacement, sums);
     if (velocity != nullptr)
-      add_motion(displacement, velocity, sums);
+      {
+        add_motion(displacement, velocity, sums);
+        if (vertex_mass > 0.)
+          add_motion_of_vertices(displacement, velocity, sums);
+      }
     return sums;
   }
 
@@ -461,6 +478,28 @@ namespace Supple
       {
         sums.linear_momentum[i] += stdx::reduce(linear[i]);
         sums.angular_momentum[i] += stdx::reduce(angular[i]);
+      }
+  }
+
+
+  void
+  Tetrahedra::add_motion_of_vertices(const double *displacement,
+                                     const double *velocity,
+                                     CellSums &sums) const
+  {
+    for (std::size_t node = 0; node < n_owned; ++node)
+      {
+        std::array<double, 3> x, p;
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            x[i] = positions[node][i] + displacement[3 * node + i];
+            p[i] = vertex_mass * velocity[3 * node + i];
+            sums.kinetic += 0.5 * p[i] * velocity[3 * node + i];
+            sums.linear_momentum[i] += p[i];
+          }
+        const std::array<double, 3> angular = cross(x, p);
+        for (unsigned int i = 0; i < 3; ++i)
+          sums.angular_momentum[i] += angular[i];
       }
   }
 

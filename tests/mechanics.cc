@@ -77,9 +77,10 @@ namespace
     }
 
     Tetrahedra
-    tetrahedra(const bool lumped = false) const
+    tetrahedra(const bool lumped = false, const double vertex_mass = 0.) const
     {
-      return {positions, cells, lumped};
+      const unsigned int n_owned = positions.size();
+      return {positions, n_owned, cells, lumped, vertex_mass};
     }
 
     /** u = G x + t sin(...) */

@@ -31,10 +31,20 @@ for row, last in zip(results.probes()[1:], results.probes()):
     runner.check(abs(row["body.fx"] - force) < 1e-6 * 192000, f"force {row['body.fx']}, mass times acceleration {force}")
 runner.check(max(row["elastic"] for row in results.history()) < 1e-6, "a rigid motion strains the body")
 
+# The same with a mass of its own at each vertex, which gravity pulls at.
+swing = {**swing, "Material/Mass per vertex": 50, "Loads/Gravity": "0, 0, -9.81"}
+results = runner.simulate(runner.BAR, swing)
+for row, last in zip(results.probes()[1:], results.probes()):
+    force = 81 * 50 * (row["body.vx"] - last["body.vx"]) / 0.07
+    runner.check(abs(row["body.fx"] - force) < 1e-6 * 4050, f"force {row['body.fx']}, mass times acceleration {force}")
+    runner.check(abs(row["body.fz"] - 81 * 50 * 9.81) < 1e-6 * 4050, f"weight {row['body.fz']}")
+
 # Clamped at one end, shaken at the other in one direction, with everything that can enter the balance.
 for rotation in ["none", "gram-schmidt", "polar"]:
-    for damping, motion in [(0, "free; free; 2*sin(3*t)"), (1, "free; free; 2*sin(3*t)"), (1, "0; 0.1*t; 2*sin(3*t)")]:
-        shaken = {"Motion/Displacement": motion,"Corotation/Rotation": rotation, "Motion/Of": "region y == 0", "Start/Velocity": "0; 0; 0",
+    for damping, mass, motion in [(0, 0, "free; free; 2*sin(3*t)"), (1, 0, "free; free; 2*sin(3*t)"),
+                                  (1, 0, "0; 0.1*t; 2*sin(3*t)"), (1, 2000, "free; free; 2*sin(3*t)")]:
+        shaken = {"Motion/Displacement": motion, "Corotation/Rotation": rotation, "Motion/Of": "region y == 0",
+                  "Material/Mass per vertex": mass,
                   "Damping/Mass factor": 0.3 * damping,
                   "Damping/Stiffness factor": 0.002 * damping, "Damping/Viscous": 300 * damping,
                   "Loads/Body force": "1e4*cos(5*t); 0; 0", "Probes/Regions": "moved: y == 0",
@@ -43,11 +53,30 @@ for rotation in ["none", "gram-schmidt", "polar"]:
         for row in results.probes():
             runner.check(abs(row["moved.uz"] - 2 * math.sin(3 * row["time"])) < 1e-12, "the motion is not followed")
         stray = balance(results.history())
-        runner.check(stray < 1e-10, f"{rotation}, damping {damping}, {motion}: energies out of balance by {stray}")
+        runner.check(stray < 1e-10, f"{rotation}, {damping}, {mass}, {motion}: energies out of balance by {stray}")
         two = runner.simulate(runner.BAR, shaken, ranks=2)
         columns = [name for name in results.probes()[0] if name != "step"]
         difference = runner.largest_difference(results.probes(), two.probes(), columns)
         runner.check(difference < 1e-8, f"one and two processes differ by {difference}")
+
+# Turned at the start, a free body stays as it is: no strain, no force. About its clamp it winds back.
+turned = {**free, "Loads/Gravity": "0, 0, 0", "Start/Rotation": "30, -80, 100", "Start/Rotation center": "1, 2, 3",
+          "Probes/Regions": "", "Time/Steps": 5}
+results = runner.simulate(runner.BAR, turned)
+angle = math.sqrt(30**2 + 80**2 + 100**2)
+axis = [30 / angle, -80 / angle, 100 / angle]
+arm = [-1, -2, -3]
+cosine, sine = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+along = sum(a * b for a, b in zip(axis, arm))
+cross = [axis[1] * arm[2] - axis[2] * arm[1], axis[2] * arm[0] - axis[0] * arm[2], axis[0] * arm[1] - axis[1] * arm[0]]
+for i, direction in enumerate("xyz"):
+    expected = cosine * arm[i] + sine * cross[i] + (1 - cosine) * along * axis[i] - arm[i]
+    found = results.probes()[-1]["n0.u" + direction]
+    runner.check(abs(found - expected) < 1e-9, f"turned by {found} along {direction} instead of {expected}")
+runner.check(max(row["elastic"] for row in results.history()) < 1e-15 * 1e8, "a turned body is strained")
+wound = {"Start/Rotation": "0, 60, 0", "Start/Rotation center": "2, 0, 2", "Start/Velocity": "0; 0; 0", "Time/Steps": 100}
+results = runner.simulate(runner.BAR, wound)
+runner.check(results.history()[0]["elastic"] > 1e6, "wound up about its clamp it has energy")
 
 # Static: pulled by a vertex, the reactions balance, and the work is that of a linear spring.
 pull = {"Motion/Of": "nearest to 2, 0, 2.1", "Motion/Displacement": "0; -0.1*t; 0", "Loads/Gravity": "0, 0, 0",

@@ -45,6 +45,10 @@ namespace Supple
     void
     set_zero();
 
+    /** A += factor I */
+    void
+    add_to_diagonal(double factor);
+
     /** y = A x for the owned rows; x must have valid ghost values. Arrays of 3 n_local doubles. */
     void
     vmult(double *y, const double *x) const;

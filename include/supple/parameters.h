@@ -70,7 +70,8 @@ namespace Supple
     double mu           = 1e6;
     double density      = 1000.;
     bool lumped         = false;
-    std::string by_id; ///< as written
+    double vertex_mass  = 0.; ///< [kg]; if positive, densities count for nothing
+    std::string by_id;        ///< as written
 
     void
     declare(dealii::ParameterHandler &prm);
@@ -152,6 +153,8 @@ namespace Supple
   {
     std::string displacement = "0; 0; 0";
     std::string velocity     = "0; 0; 0";
+    dealii::Tensor<1, 3> rotation;    ///< axis times angle [degrees]
+    dealii::Point<3> rotation_center; ///< [m]
 
     void
     declare(dealii::ParameterHandler &prm);

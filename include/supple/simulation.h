@@ -45,6 +45,10 @@ namespace Supple
     void
     create_initial_state();
 
+    /** Sets the displacement of the rotation that the scene starts with. */
+    void
+    turn(Vector &displacement) const;
+
     void
     print_mesh_details() const;
 

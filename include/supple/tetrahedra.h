@@ -64,10 +64,16 @@ namespace Supple
   class Tetrahedra
   {
   public:
-    /** @p positions: rest positions [m] of the local nodes. */
+    /**
+     * @param positions   rest positions [m] of the local nodes, of which the first @p n_owned count
+     * in sums
+     * @param vertex_mass mass [kg] of each node beside that of the cells
+     */
     Tetrahedra(const std::vector<std::array<double, 3>> &positions,
+               unsigned int n_owned,
                const std::vector<Tetrahedron> &cells,
-               bool lumped_mass);
+               bool lumped_mass,
+               double vertex_mass);
 
     /** Finds the place of each cell's blocks in matrices with this pattern. */
     void
@@ -98,7 +104,8 @@ namespace Supple
     void
     add_mass(SymmetricScalarMatrix &M) const;
 
-    /** Mass [kg] of each local node, volume shared evenly: the row sums of the mass matrix. */
+    /** Mass [kg] of each local node, that of a cell shared evenly: the row sums of the mass matrix.
+     */
     void
     add_nodal_mass(double *mass) const;
 
@@ -183,8 +190,15 @@ namespace Supple
     void
     add_motion(const double *displacement, const double *velocity, CellSums &sums) const;
 
+    void
+    add_motion_of_vertices(const double *displacement,
+                           const double *velocity,
+                           CellSums &sums) const;
+
     const std::size_t n_cells;
+    const unsigned int n_owned; ///< nodes
     const bool lumped_mass;
+    const double vertex_mass;
     std::vector<Batch> batches;
     std::vector<Matrix3<Pack>> rotations;
     std::vector<Slots> slots;
