@@ -311,6 +311,7 @@ namespace Supple
   void
   Tetrahedra::add_tangent(const double mass_factor,
                           const double stiffness_factor,
+                          const double rotation_factor,
                           SymmetricBlockMatrix &A) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
@@ -320,18 +321,16 @@ namespace Supple
         const Pack lambda        = stiffness_factor * batch.volume * batch.lambda;
         const Pack mu            = stiffness_factor * batch.volume * batch.mu;
 
-        NodalPack h = batch.gradients;
-        if (!rotations.empty())
-          for (unsigned int a = 0; a < 4; ++a)
-            for (unsigned int i = 0; i < 3; ++i)
-              h[a][i] = rotations[b](i, 0) * batch.gradients[a][0] +
-                        rotations[b](i, 1) * batch.gradients[a][1] +
-                        rotations[b](i, 2) * batch.gradients[a][2];
+        const NodalPack h  = rotated_gradients(b);
+        const bool turning = !rotation_stiffness.empty();
 
         const auto add_block =
           [&](const unsigned int a, const unsigned int c, const auto &slot, double *values) {
             const Pack diagonal = mu * (h[a][0] * h[c][0] + h[a][1] * h[c][1] + h[a][2] * h[c][2]) +
                                   mass_factor * (a == c ? same : other);
+            std::array<std::array<Pack, 3>, 3> turn;
+            if (turning)
+              turn = rotation_block(b, h, a, c);
             alignas(64) double block[9][n_lanes];
             for (unsigned int i = 0; i < 3; ++i)
               for (unsigned int j = 0; j < 3; ++j)
@@ -339,6 +338,8 @@ namespace Supple
                   Pack entry = lambda * h[a][i] * h[c][j] + mu * h[c][i] * h[a][j];
                   if (i == j)
                     entry += diagonal;
+                  if (turning)
+                    entry += rotation_factor * turn[j][i];
                   entry.copy_to(block[3 * i + j], stdx::vector_aligned);
                 }
             for (unsigned int lane = 0; lane < n_lanes; ++lane)

@@ -68,7 +68,10 @@ namespace Supple
 
   private:
     void
-    assemble(double mass_factor, double stiffness_factor, double diagonal_term);
+    assemble(double mass_factor,
+             double stiffness_factor,
+             double rotation_factor,
+             double diagonal_term);
 
     SymmetricPattern
     make_pattern() const;

@@ -11,6 +11,22 @@
 
 namespace Supple
 {
+  /**
+   * How the operator K' knows of the rotations.
+   *
+   * - frozen: as if they stayed what they are: positive definite, but no derivative of the force.
+   * - consistent: the derivative of the force of polar rotations, which is symmetric but may be
+   *   indefinite where the body is compressed.
+   * - definite: the same, projected cell by cell to the nearest positive semidefinite one.
+   */
+  enum class Tangent
+  {
+    frozen,
+    consistent,
+    definite
+  };
+
+
   /** One linear tetrahedron as Tetrahedra wants to know it. */
   struct Tetrahedron
   {
@@ -57,7 +73,16 @@ namespace Supple
    *          \|/         K_ab = V (lambda h_a h_b^T + mu h_b h_a^T + mu (h_a.h_b) I),   h_a = R g_a
    *           1
    *
-   * (Mueller & Gross 2004; Hauth & Strasser 2004.) Displacements, velocities and forces are arrays
+   * (Mueller & Gross 2004; Hauth & Strasser 2004.) If polar rotations are to follow the
+   * displacement (Chao et al. 2010; McAdams et al. 2011), the stress has one more derivative: with
+   * the axial vector a = sum_a g_a x R^T du_a of twice the skew part of R^T dF,
+   *
+   *       dW^2 = (frozen) + V a.H a,  H = mu I - (2 mu - lambda tr(S - I)) (tr(S) I - S)^-1,
+   *
+   * which acts on skew parts alone, as the frozen part does on symmetric ones: it can be projected
+   * to a positive semidefinite H by itself.
+   *
+   * Displacements, velocities and forces are arrays
    * of 3 n_local doubles, node by node; ghost values must be valid in what is read, and those of
    * what is written are meaningless.
    */
@@ -92,13 +117,24 @@ namespace Supple
     void
     add_stiffness_product(const double *w, double *y) const;
 
+    /** Computes what the derivatives of the rotations add to K'; kept until called again. */
+    void
+    update_rotation_stiffness(Tangent tangent, const double *displacement);
+
+    /** y += (that part of K') w */
+    void
+    add_rotation_product(const double *w, double *y) const;
+
     /** y += M w on all nodes, those held included. */
     void
     add_mass_product(const double *w, double *y) const;
 
-    /** A += mass_factor M + stiffness_factor K'. */
+    /** A += mass_factor M + stiffness_factor K' + rotation_factor (what rotations add to K'). */
     void
-    add_tangent(double mass_factor, double stiffness_factor, SymmetricBlockMatrix &A) const;
+    add_tangent(double mass_factor,
+                double stiffness_factor,
+                double rotation_factor,
+                SymmetricBlockMatrix &A) const;
 
     /** M += the mass matrix. */
     void
@@ -184,6 +220,14 @@ namespace Supple
     NodalPack
     mass_product(const Batch &batch, const NodalPack &values) const;
 
+    /** R g_a */
+    NodalPack
+    rotated_gradients(std::size_t batch) const;
+
+    /** The columns of V [h_a]^T H [h_c] in the body's frame, [h] w = h x w. */
+    std::array<std::array<Pack, 3>, 3>
+    rotation_block(std::size_t batch, const NodalPack &h, unsigned int a, unsigned int c) const;
+
     void
     add_deformation(const double *displacement, CellSums &sums) const;
 
@@ -201,6 +245,7 @@ namespace Supple
     const double vertex_mass;
     std::vector<Batch> batches;
     std::vector<Matrix3<Pack>> rotations;
+    std::vector<Matrix3<Pack>> rotation_stiffness; ///< V R H R^T; empty for frozen rotations
     std::vector<Slots> slots;
     std::vector<std::array<double, 3>> positions;
   };
