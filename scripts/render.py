@@ -1,10 +1,15 @@
-"""Draws instants of a run side by side, from the VTU files that solution.pvd names."""
+"""Draws instants of a run side by side, from the VTU files that solution.pvd names, and another run below.
+
+    scripts/render.sh OUTPUT_FOLDER PICTURE.png [--times 0 0.14 7] [--below OTHER_OUTPUT_FOLDER] [further options]
+"""
 
 import argparse
 import pathlib
 import xml.etree.ElementTree
 
+import numpy
 import vtk
+from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
 
 def read_frames(folder):
@@ -22,14 +27,18 @@ def read_grid(file):
 
 
 def at_rest(grid):
-    """The same cells where they were before they moved."""
+    """The same cells where they were before they moved, with common vertices (in the files each cell has its own)."""
+    displacement = vtk_to_numpy(grid.GetPointData().GetArray("displacement"))
+    places, numbers = numpy.unique(vtk_to_numpy(grid.GetPoints().GetData()) - displacement, axis=0, return_inverse=True)
     points = vtk.vtkPoints()
-    displacement = grid.GetPointData().GetArray("displacement")
-    for i in range(grid.GetNumberOfPoints()):
-        points.InsertNextPoint([x - u for x, u in zip(grid.GetPoint(i), displacement.GetTuple(i))])
+    points.SetData(numpy_to_vtk(places, deep=True))
+    vertices = numbers.ravel()[vtk_to_numpy(grid.GetCells().GetConnectivityArray())]
+    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+    cells = vtk.vtkCellArray()
+    cells.SetData(*(numpy_to_vtkIdTypeArray(ids.astype(numpy.int64), deep=True) for ids in (offsets, vertices)))
     rest = vtk.vtkUnstructuredGrid()
-    rest.DeepCopy(grid)
     rest.SetPoints(points)
+    rest.SetCells(grid.GetCellType(0), cells)
     return rest
 
 
@@ -51,17 +60,20 @@ def body_actor(grid, field, colours):
     return actor
 
 
-def ghost_actor(grid):
-    """Outline of the body at rest."""
+def ghost_actor(grid, camera):
+    """Outline of the body at rest: its sharp edges, or, where a camera is given, its silhouette from there."""
     surface = vtk.vtkGeometryFilter()
     surface.SetInputData(at_rest(grid))
-    merged = vtk.vtkCleanPolyData()
-    merged.SetInputConnection(surface.GetOutputPort())
-    edges = vtk.vtkFeatureEdges()
-    edges.SetInputConnection(merged.GetOutputPort())
-    edges.SetFeatureAngle(60)
-    edges.NonManifoldEdgesOff()
-    edges.ColoringOff()
+    if camera is None:
+        edges = vtk.vtkFeatureEdges()
+        edges.SetFeatureAngle(60)
+        edges.NonManifoldEdgesOff()
+        edges.ColoringOff()
+    else:
+        edges = vtk.vtkPolyDataSilhouette()
+        edges.SetCamera(camera)
+        edges.SetEnableFeatureAngle(0)
+    edges.SetInputConnection(surface.GetOutputPort())
     mapper = vtk.vtkPolyDataMapper()
     mapper.SetInputConnection(edges.GetOutputPort())
     mapper.ScalarVisibilityOff()
@@ -108,81 +120,115 @@ def caption(text):
     return actor
 
 
-def draw(instants, arguments):
-    """One view for each instant, all with the same camera and colours."""
-    grids = [read_grid(file) for _, file in instants]
-    ranges = [grid.GetPointData().GetArray(arguments.field).GetRange() for grid in grids]
-    colours = colour_map(min(low for low, _ in ranges), max(high for _, high in ranges))
+def box_of(grids):
+    """Box around all bodies, as they are and at rest."""
     bounds = vtk.vtkBoundingBox()
     for grid in grids:
         bounds.AddBounds(grid.GetBounds())
         bounds.AddBounds(at_rest(grid).GetBounds())
     box = [0.0] * 6
     bounds.GetBounds(box)
+    return box
+
+
+def add_view(window, corners, grid, text, camera, colours, arguments):
+    """One body in a part of the window."""
+    view = vtk.vtkRenderer()
+    view.SetBackground(1, 1, 1)
+    view.SetViewport(*corners)
+    light = vtk.vtkLight()
+    light.SetLightTypeToCameraLight()
+    light.SetPosition(0.3, 0.8, 1)
+    view.AddLight(light)
+    view.AddActor(body_actor(grid, arguments.field, colours))
+    view.AddActor(ghost_actor(grid, camera if arguments.outline == "silhouette" else None))
+    view.AddActor(caption(text))
+    view.SetActiveCamera(camera)
+    window.AddRenderer(view)
+    return view
+
+
+def add_colour_bar(window, colours, title, height):
+    foot = vtk.vtkRenderer()
+    foot.SetBackground(1, 1, 1)
+    foot.SetViewport(0, 0, 1, height)
+    bar = colour_bar(colours, title)
+    bar.SetPosition(0.3, 0.05)
+    bar.SetHeight(0.9)
+    foot.AddActor2D(bar)
+    window.AddRenderer(foot)
+
+
+def write(window, file):
+    window.Render()
+    picture = vtk.vtkWindowToImageFilter()
+    picture.SetInput(window)
+    picture.ReadFrontBufferOff()
+    writer = vtk.vtkPNGWriter()
+    writer.SetFileName(file)
+    writer.SetInputConnection(picture.GetOutputPort())
+    writer.Write()
+
+
+def draw(rows, arguments):
+    """A row for each run and a view for each of its instants (time, file), all with the same camera and colours."""
+    grids = [[read_grid(file) for _, file in instants] for instants in rows]
+    every = [grid for row in grids for grid in row]
+    ranges = [grid.GetPointData().GetArray(arguments.field).GetRange() for grid in every]
+    colours = colour_map(min(low for low, _ in ranges), max(high for _, high in ranges))
+    box = box_of(every)
 
     window = vtk.vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(8)
     window.SetSize(arguments.width, arguments.height)
     camera = vtk.vtkCamera()
-    for i, (grid, (time, _)) in enumerate(zip(grids, instants)):
-        view = vtk.vtkRenderer()
-        view.SetBackground(1, 1, 1)
-        view.SetViewport(i / len(grids), 0.12, (i + 1) / len(grids), 1)
-        light = vtk.vtkLight()
-        light.SetLightTypeToCameraLight()
-        light.SetPosition(0.3, 0.8, 1)
-        view.AddLight(light)
-        view.AddActor(body_actor(grid, arguments.field, colours))
-        view.AddActor(ghost_actor(grid))
-        view.AddActor(caption(f"t = {time:.3g} s"))
-        view.SetActiveCamera(camera)
-        window.AddRenderer(view)
-        if i == 0:
-            camera.SetViewUp(0, 0, 1)
-            camera.SetPosition(*arguments.camera)
-            camera.SetFocalPoint(0, 0, 0)
-            view.ResetCamera(box)
-            camera.Zoom(arguments.zoom)
+    camera.SetViewUp(0, 0, 1)
+    camera.SetPosition(*arguments.camera)
+    camera.SetFocalPoint(0, 0, 0)
+    foot = 77 / arguments.height
+    views = []
+    for r, (row, instants, name) in enumerate(zip(grids, rows, arguments.names)):
+        low, high = (1 - (1 - foot) * (r + part) / len(rows) for part in (1, 0))
+        for i, (grid, (time, _)) in enumerate(zip(row, instants)):
+            corners = (i / len(row), low, (i + 1) / len(row), high)
+            text = f"{name}, t = {time:.3g} s" if name else f"t = {time:.3g} s"
+            views.append(add_view(window, corners, grid, text, camera, colours, arguments))
+    views[0].ResetCamera(box)
+    camera.Zoom(arguments.zoom)
+    for view in views:
         view.ResetCameraClippingRange(box)
-    foot = vtk.vtkRenderer()
-    foot.SetBackground(1, 1, 1)
-    foot.SetViewport(0, 0, 1, 0.12)
-    bar = colour_bar(colours, arguments.title or arguments.field.replace("_", " "))
-    bar.SetPosition(0.3, 0.05)
-    bar.SetHeight(0.9)
-    foot.AddActor2D(bar)
-    window.AddRenderer(foot)
-    window.Render()
+    add_colour_bar(window, colours, arguments.title or arguments.field.replace("_", " "), foot)
+    write(window, arguments.picture)
 
-    picture = vtk.vtkWindowToImageFilter()
-    picture.SetInput(window)
-    picture.ReadFrontBufferOff()
-    writer = vtk.vtkPNGWriter()
-    writer.SetFileName(arguments.picture)
-    writer.SetInputConnection(picture.GetOutputPort())
-    writer.Write()
+
+def choose(folder, times):
+    """The frames of a run nearest to the times; first, middle and last if there are none."""
+    frames = read_frames(folder)
+    if times is None:
+        return [frames[0], frames[len(frames) // 2], frames[-1]]
+    return [min(frames, key=lambda frame: abs(frame[0] - time)) for time in times]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=pathlib.Path, help="output folder of a run")
     parser.add_argument("picture", help="PNG file to write")
+    parser.add_argument("--below", type=pathlib.Path, help="output folder of another run, drawn below the first")
+    parser.add_argument("--names", nargs="+", default=[], help="what the runs are called")
     parser.add_argument("--times", type=float, nargs="+", help="instants [s]; the nearest frames are taken")
     parser.add_argument("--field", default="von_mises_stress", help="what colours the body")
     parser.add_argument("--title", help="title of the colours")
+    parser.add_argument("--outline", choices=("edges", "silhouette"), default="edges", help="of the body at rest")
     parser.add_argument("--camera", type=float, nargs=3, default=(-1.2, -0.7, 0.6), help="direction to look from")
     parser.add_argument("--zoom", type=float, default=1.0)
     parser.add_argument("--width", type=int, default=1500)
     parser.add_argument("--height", type=int, default=640)
     arguments = parser.parse_args()
 
-    frames = read_frames(arguments.folder)
-    if arguments.times is None:
-        instants = [frames[0], frames[len(frames) // 2], frames[-1]]
-    else:
-        instants = [min(frames, key=lambda frame: abs(frame[0] - time)) for time in arguments.times]
-    draw(instants, arguments)
+    folders = [arguments.folder] + ([arguments.below] if arguments.below else [])
+    arguments.names = (arguments.names + [""] * len(folders))[:len(folders)]
+    draw([choose(folder, arguments.times) for folder in folders], arguments)
 
 
 if __name__ == "__main__":
