@@ -119,6 +119,17 @@ namespace Supple
 
 
   void
+  Body::update_rotation_stiffness(const Tangent tangent,
+                                  const Vector &displacement,
+                                  Effort &effort) const
+  {
+    const PhaseTimer timer(effort, Phase::assembly);
+    const GhostValues values(displacement);
+    tetrahedra->update_rotation_stiffness(tangent, values.data());
+  }
+
+
+  void
   Body::internal_force(Vector &force, const Vector &displacement, Effort &effort) const
   {
     const PhaseTimer timer(effort, Phase::forces);

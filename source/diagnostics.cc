@@ -86,18 +86,18 @@ namespace Supple
     std::vector<double> sums    = {local.kinetic, local.elastic, double(local.inverted)};
     sums.insert(sums.end(), local.linear_momentum.begin(), local.linear_momentum.end());
     sums.insert(sums.end(), local.angular_momentum.begin(), local.angular_momentum.end());
-    std::vector<double> total(sums.size());
-    Utilities::MPI::sum(sums, communicator, total);
+    std::vector<double> global(sums.size());
+    Utilities::MPI::sum(sums, communicator, global);
 
     Measurement result;
     result.step             = step;
     result.time             = time;
     result.dt               = report.dt;
-    result.kinetic          = total[0];
-    result.elastic          = total[1];
-    result.inverted         = static_cast<unsigned int>(total[2]);
-    result.linear_momentum  = {{total[3], total[4], total[5]}};
-    result.angular_momentum = {{total[6], total[7], total[8]}};
+    result.kinetic          = global[0];
+    result.elastic          = global[1];
+    result.inverted         = static_cast<unsigned int>(global[2]);
+    result.linear_momentum  = {{global[3], global[4], global[5]}};
+    result.angular_momentum = {{global[6], global[7], global[8]}};
     result.min_volume_ratio = Utilities::MPI::min(local.min_volume_ratio, communicator);
     result.max_volume_ratio = Utilities::MPI::max(local.max_volume_ratio, communicator);
 
@@ -105,10 +105,13 @@ namespace Supple
     result.potential         = load_factor * loads.potential(state.block(0));
     result.total             = result.kinetic + result.elastic + result.potential;
 
-    if (!first && !stationary)
-      dissipated += report.expended - (result.elastic - elastic);
+    if (!first && report.expended)
+      dissipated += *report.expended - (result.elastic - elastic);
+    else if (!first && !stationary)
+      dissipated += report.load_work - (result.total - total);
     work += report.load_work;
     elastic           = result.elastic;
+    total             = result.total;
     first             = false;
     result.dissipated = dissipated;
     result.work       = work;

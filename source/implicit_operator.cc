@@ -132,7 +132,10 @@ namespace Supple
   ImplicitOperator::stiffness_vmult(Vector &y, const Vector &x) const
   {
     const GhostValues values(x);
-    sum_into(y, [&](double *sum) { body.tetrahedra->add_stiffness_product(values.data(), sum); });
+    sum_into(y, [&](double *sum) {
+      body.tetrahedra->add_stiffness_product(values.data(), sum);
+      body.tetrahedra->add_rotation_product(values.data(), sum);
+    });
     constraints.set_zero(y);
   }
 } // namespace Supple

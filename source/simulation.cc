@@ -36,7 +36,7 @@ namespace Supple
     , implicit_operator(body, constraints, parameters, effort)
     , solver(LinearSolver::create(implicit_operator, parameters, effort))
     , diagnostics(body, loads, stationary)
-    , progress(parameters.time.n_steps, talks, Utilities::MPI::n_mpi_processes(communicator) > 1)
+    , progress(talks, Utilities::MPI::n_mpi_processes(communicator) > 1)
   {
     if (stationary && constraints.n_pieces_free > 0 && constraints.n_held > 0)
       throw InputError(
@@ -195,11 +195,14 @@ namespace Supple
     if (!talks)
       return;
     std::ostringstream time;
-    time << integrator->name() << ", " << parameters.time.n_steps;
-    if (!stationary)
-      time << " steps of " << parameters.time.step << " s";
+    time << integrator->name() << ", ";
+    if (stationary)
+      time << parameters.time.n_steps << " load steps";
+    else if (parameters.time.has_variable_steps())
+      time << "up to " << integrator->end << " s, relative tolerance "
+           << parameters.time.relative_tolerance;
     else
-      time << " load steps";
+      time << parameters.time.n_steps << " steps of " << parameters.time.step << " s";
     const std::array<const char *, 3> rotations = {
       {"linear elasticity", "corotational, Gram-Schmidt", "corotational, polar"}};
     std::ostringstream volume;
@@ -286,8 +289,8 @@ namespace Supple
         progress.clear();
         const std::string time = stationary ? "load factor " : "time ";
         std::ostringstream text;
-        text << "Step " << step + 1 << " (" << time << now.time << " to " << time_of(step + 1)
-             << ") failed: " << error.what() << ". The results up to " << time << now.time
+        text << "Step " << step + 1 << " (from " << time << now.time
+             << " on) failed: " << error.what() << ". The results up to " << time << now.time
              << " are in " << folder << ".";
         finish("failed: " + text.str());
         throw ComputationError(text.str());
@@ -303,11 +306,11 @@ namespace Supple
   Simulation::time_loop()
   {
     const InterruptGuard interrupt;
-    while (step < parameters.time.n_steps)
+    while (!integrator->finished())
       {
         advance();
-        progress.update(step);
-        if (step < parameters.time.n_steps && interrupt.requested(communicator))
+        progress.update(step, now.time / integrator->end);
+        if (!integrator->finished() && interrupt.requested(communicator))
           {
             progress.clear();
             finish("interrupted");
@@ -320,21 +323,13 @@ namespace Supple
   }
 
 
-  double
-  Simulation::time_of(const unsigned int step) const
-  {
-    return stationary ? double(step) / parameters.time.n_steps : step * parameters.time.step;
-  }
-
-
   void
   Simulation::advance()
   {
-    const double time       = time_of(step + 1);
-    const StepReport report = integrator->advance(state, time, writes);
+    const StepReport report = integrator->advance(state, writes);
     ++step;
     now.step = step;
-    now.time = time;
+    now.time = report.time;
     error_estimate += report.local_error;
     largest_motion =
       std::max(largest_motion, largest_vertex_distance(state.block(0), start_displacement));
@@ -397,7 +392,7 @@ namespace Supple
       {
         std::cout << "done: " << step << " steps in " << readable_duration(summary.run_seconds)
                   << ", " << std::lround(step / summary.run_seconds) << " steps/s";
-        if (implicit_operator.has_mass())
+        if (implicit_operator.has_mass() && std::isfinite(error_estimate))
           std::cout << "; sum of local errors " << error_estimate << " m beside a motion of "
                     << largest_motion << " m";
         std::cout << "; " << summary.frames << " frames in " << folder << std::endl;

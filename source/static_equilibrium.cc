@@ -10,7 +10,7 @@
 namespace Supple
 {
   StaticEquilibrium::StaticEquilibrium(const Model &model)
-    : TimeIntegrator(model)
+    : TimeIntegrator(model, 1.)
   {
     model.body.initialize(residual);
     model.body.initialize(correction);
@@ -81,12 +81,14 @@ namespace Supple
 
 
   StepReport
-  StaticEquilibrium::advance(State &state, const double load_factor, const bool observed)
+  StaticEquilibrium::advance(State &state, const bool observed)
   {
-    Vector &u          = state.block(0);
-    const Vector start = u;
+    Vector &u                = state.block(0);
+    const Vector start       = u;
+    const double load_factor = double(n_done + 1) / model.parameters.time.n_steps;
     StepReport report;
-    report.dt = load_factor - last_load_factor;
+    report.time = load_factor;
+    report.dt   = load_factor - time;
     try
       {
         find_equilibrium(u, load_factor, report);
@@ -97,7 +99,8 @@ namespace Supple
         model.body.update_rotations(u, model.effort);
         throw;
       }
-    last_load_factor = load_factor;
+    time = load_factor;
+    ++n_done;
 
     if (observed)
       {
@@ -116,9 +119,9 @@ namespace Supple
   void
   StaticEquilibrium::find_equilibrium(Vector &u, const double load_factor, StepReport &report)
   {
-    const TimeParameters &time = model.parameters.time;
-    const bool constant        = model.body.rotation == RotationMethod::none; // the operator
-    const bool linear          = constant && !model.loads.follow();
+    const TimeParameters &settings = model.parameters.time;
+    const bool constant            = model.body.rotation == RotationMethod::none; // the operator
+    const bool linear              = constant && !model.loads.follow();
 
     if (model.constraints.move())
       model.constraints.set_displacement(u, load_factor);
@@ -132,12 +135,12 @@ namespace Supple
         const double size = load_factor * model.loads.force(1., u).l2_norm() + residual.l2_norm();
         const double balance = free_residual.l2_norm();
         if (linear ? report.newton_iterations == 1
-                   : balance <= time.newton_tolerance * size + force_accuracy)
+                   : balance <= settings.newton_tolerance * size + force_accuracy)
           return;
-        if (report.newton_iterations == time.newton_limit)
+        if (report.newton_iterations == settings.newton_limit)
           {
             std::ostringstream text;
-            text << "Newton's method is not done after " << time.newton_limit
+            text << "Newton's method is not done after " << settings.newton_limit
                  << " iterations: the forces are out of balance by " << balance / size
                  << " of the loads and reactions. More load steps (Time/Steps) may help";
             throw ComputationError(text.str());

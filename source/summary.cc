@@ -73,6 +73,7 @@ namespace Supple
                         {"newton_iterations", effort.newton_iterations}};
 
     json["steps"]            = steps;
+    json["rejected_steps"]   = effort.rejected_steps;
     json["steps_per_second"] = run_seconds > 0. ? steps / run_seconds : 0.;
     Json &seconds            = json["seconds"];
     seconds["setup"]         = setup_seconds;
@@ -81,10 +82,13 @@ namespace Supple
       seconds[phase_names[phase]] = effort.seconds[phase];
 
     if (model.implicit_operator.has_mass())
-      json["error_estimate"] = {{"sum_of_local_errors", error_estimate},
-                                {"largest_motion", largest_motion},
-                                {"relative",
-                                 largest_motion > 0. ? error_estimate / largest_motion : 0.}};
+      {
+        // Not a number, where the method has no estimate, becomes null.
+        json["error_estimate"] = {{"sum_of_local_errors", error_estimate},
+                                  {"largest_motion", largest_motion},
+                                  {"relative",
+                                   largest_motion > 0. ? error_estimate / largest_motion : 0.}};
+      }
     if (observed)
       json["last"] = energies(last);
     json["built"]    = what_was_built(*this, model);

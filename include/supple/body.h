@@ -51,6 +51,10 @@ namespace Supple
     void
     update_rotations(const Vector &displacement, Effort &effort) const;
 
+    /** What the derivatives of the rotations add to K', see Tetrahedra. */
+    void
+    update_rotation_stiffness(Tangent tangent, const Vector &displacement, Effort &effort) const;
+
     /** f = sum R K (R^T x - X) on owned nodes, held ones included, with the rotations of the last
      * update. */
     void

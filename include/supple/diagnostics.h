@@ -67,6 +67,7 @@ namespace Supple
     const bool stationary;
     bool first        = true;
     double elastic    = 0.;
+    double total      = 0.;
     double dissipated = 0.;
     double work       = 0.;
   };

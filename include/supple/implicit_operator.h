@@ -40,7 +40,7 @@ namespace Supple
     void
     mass_vmult(Vector &y, const Vector &x) const;
 
-    /** y = K' x, from the cells. */
+    /** y = K' x, from the cells, with what rotations add. */
     void
     stiffness_vmult(Vector &y, const Vector &x) const;
 

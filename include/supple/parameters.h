@@ -169,14 +169,69 @@ namespace Supple
       stationary
     };
 
-    Problem problem           = Problem::dynamic;
-    double step               = 0.01;
-    unsigned int n_steps      = 100;
-    double newton_tolerance   = 1e-8;
-    unsigned int newton_limit = 100;
+    enum class Method
+    {
+      backward_euler,
+      implicit_backward_euler,
+      implicit_midpoint,
+      sdirk2,
+      trbdf2,
+      esdirk3,
+      esdirk4,
+      esdirk5,
+      explicit2,
+      explicit3,
+      explicit4,
+      explicit5,
+      ida
+    };
+
+    enum class TangentChoice
+    {
+      automatic,
+      frozen,
+      consistent,
+      definite
+    };
+
+    Problem problem               = Problem::dynamic;
+    Method method                 = Method::backward_euler;
+    double step                   = 0.01;
+    unsigned int n_steps          = 100;
+    bool adaptive                 = false;
+    double relative_tolerance     = 1e-3;
+    double displacement_tolerance = 0.; ///< [m]; 0: by the size of the body
+    double velocity_tolerance     = 0.; ///< [m/s]; 0: from that of the displacement
+    double longest_step           = 0.; ///< [s]; 0: any
+    unsigned int maximum_order    = 2;  ///< of IDA
+    TangentChoice tangent         = TangentChoice::automatic;
+    double newton_tolerance       = 1e-8;
+    unsigned int newton_limit     = 100;
+    unsigned int n_retries        = 10;
 
     void
     declare(dealii::ParameterHandler &prm);
+
+    void
+    check(const Parameters &parameters) const;
+
+    /** As it is written. */
+    std::string
+    method_name() const;
+
+    bool
+    is_explicit() const;
+
+    bool
+    has_variable_steps() const;
+
+    /** The time at the end [s]; the load factor of a static problem. */
+    double
+    end() const;
+
+  private:
+    void
+    declare_tolerances(dealii::ParameterHandler &prm);
   };
 
 

@@ -75,10 +75,6 @@ namespace Supple
     double
     seconds_since_start() const;
 
-    /** [s]; the load factor of a static problem */
-    double
-    time_of(unsigned int step) const;
-
     const Parameters parameters;
     const std::string folder;
     const MPI_Comm communicator;

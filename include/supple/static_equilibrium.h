@@ -20,7 +20,7 @@ namespace Supple
     StaticEquilibrium(const Model &model);
 
     StepReport
-    advance(State &state, double load_factor, bool observed) override;
+    advance(State &state, bool observed) override;
 
     std::string
     name() const override;
@@ -43,9 +43,9 @@ namespace Supple
     void
     find_equilibrium(Vector &displacement, double load_factor, StepReport &report);
 
-    double force_accuracy   = 0.; ///< what round-off leaves of forces in balance [N]
-    bool prepared           = false;
-    double last_load_factor = 0.;
+    double force_accuracy = 0.; ///< what round-off leaves of forces in balance [N]
+    bool prepared         = false;
+    unsigned int n_done   = 0; ///< load steps
     Vector residual, correction, free_residual;
   };
 } // namespace Supple
