@@ -117,6 +117,43 @@ namespace Supple
 
 
   void
+  StaticEquilibrium::assemble(const Vector &u, const Tangent tangent)
+  {
+    model.body.update_rotation_stiffness(tangent, u, model.effort);
+    model.implicit_operator.assemble_stiffness();
+    model.solver.prepare(u);
+  }
+
+
+  unsigned int
+  StaticEquilibrium::find_correction(const Vector &u)
+  {
+    using Choice        = TimeParameters::TangentChoice;
+    const Choice choice = model.parameters.time.tangent;
+    if (model.body.rotation != RotationMethod::polar || choice == Choice::frozen)
+      {
+        assemble(u, Tangent::frozen);
+        return model.solver.solve(correction, free_residual);
+      }
+    if (choice != Choice::definite)
+      try
+        {
+          assemble(u, Tangent::consistent);
+          const unsigned int n_iterations = model.solver.solve(correction, free_residual);
+          if (choice == Choice::consistent || free_residual * correction > 0.)
+            return n_iterations;
+        }
+      catch (const ComputationError &)
+        {
+          if (choice == Choice::consistent)
+            throw;
+        }
+    assemble(u, Tangent::definite);
+    return model.solver.solve(correction, free_residual);
+  }
+
+
+  void
   StaticEquilibrium::find_equilibrium(Vector &u, const double load_factor, StepReport &report)
   {
     const TimeParameters &settings = model.parameters.time;
@@ -146,13 +183,15 @@ namespace Supple
             throw ComputationError(text.str());
           }
 
-        if (!constant || !prepared)
+        if (constant)
           {
-            model.implicit_operator.assemble_stiffness();
-            model.solver.prepare(u);
+            if (!prepared)
+              assemble(u, Tangent::frozen);
             prepared = true;
+            report.linear_iterations += model.solver.solve(correction, free_residual);
           }
-        report.linear_iterations += model.solver.solve(correction, free_residual);
+        else
+          report.linear_iterations += find_correction(u);
         add_correction(u, load_factor);
         ++report.newton_iterations;
         ++model.effort.newton_iterations;

@@ -9,10 +9,10 @@ namespace Supple
    * Equilibrium f_int(u) = s f under the loads at time 1, with the load factor s growing in steps
    * to 1.
    *
-   * Each step is Newton's method with the operator K' of the present rotations. It is positive
-   * definite, so each correction goes downhill in the energy W(u) - s f.u of polar rotations, and a
-   * line search makes sure that it does not go too far. Linear elasticity needs one correction, and
-   * one operator for all steps.
+   * Each step is Newton's method with the consistent tangent of polar rotations; where that does
+   * not lead downhill in the energy W(u) - s f.u, with its definite projection, which does. A line
+   * search makes sure that a correction does not go too far. Linear elasticity needs one
+   * correction, and one operator for all steps.
    */
   class StaticEquilibrium : public TimeIntegrator
   {
@@ -38,6 +38,13 @@ namespace Supple
     /** Adds as much of the correction as lowers the energy. */
     void
     add_correction(Vector &displacement, double load_factor);
+
+    void
+    assemble(const Vector &displacement, Tangent tangent);
+
+    /** Sets the correction. @return the iterations of the linear solver */
+    unsigned int
+    find_correction(const Vector &displacement);
 
     /** Newton's iterations of one load step. */
     void
