@@ -3,6 +3,7 @@
 
 #include <arkode/arkode_arkstep.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -79,8 +80,6 @@ namespace Supple
     : DynamicIntegrator(model,
                         rotations_of(model.parameters.time.method),
                         held_velocity_of(model.parameters.time.method))
-    , linear(settings.method == Method::backward_euler ||
-             (model.body.rotation == RotationMethod::none && !model.loads.follow()))
     , mass_system(context)
     , error(equation.n_unknowns(), model.body.mesh.communicator, context)
     , last_size(settings.step)
@@ -196,9 +195,22 @@ namespace Supple
     // The force at the end of a stage follows from the solution of its equation.
     ARKStepSetDeduceImplicitRhs(memory, 1);
     ARKStepSetPredictorMethod(memory, 0);
+    set_linear(settings.method == Method::backward_euler ||
+               (model.body.rotation == RotationMethod::none && !model.loads.follow()));
+  }
+
+
+  void
+  ArkodeIntegrator::set_linear(const bool is_linear)
+  {
+    linear = is_linear;
     if (linear)
-      ARKStepSetLinear(memory, model.body.rotation == RotationMethod::none ? 0 : 1);
-    else if (!adaptive)
+      {
+        ARKStepSetLinear(memory, model.body.rotation == RotationMethod::none ? 0 : 1);
+        return;
+      }
+    ARKStepSetNonlinear(memory);
+    if (!adaptive)
       {
         ARKStepSetMaxNonlinIters(memory, settings.newton_limit);
         ARKStepSetNonlinConvCoef(memory, 1.);
@@ -267,10 +279,43 @@ namespace Supple
   double
   ArkodeIntegrator::next_step_size() const
   {
-    if (time == grid * settings.step && last_size > 0.999 * settings.step)
+    if (time == grid * settings.step && std::min(last_size, size_limit) > 0.999 * settings.step)
       return settings.step; // the very same number: nothing is factorized anew
-    const double rest = (grid + 1) * settings.step - time;
-    return 2. * last_size > 0.999 * rest ? rest : 2. * last_size;
+    const double rest   = (grid + 1) * settings.step - time;
+    const double longer = std::min(2. * last_size, size_limit);
+    return longer > 0.999 * rest ? rest : longer;
+  }
+
+
+  /** First the same step with rotations that follow, then half of it. */
+  bool
+  ArkodeIntegrator::make_safer()
+  {
+    const bool smaller = !equation.rotations_are_frozen();
+    if (smaller && last_size < settings.step * std::pow(0.5, settings.n_retries - 0.5))
+      return false;
+    if (!smaller)
+      {
+        equation.set_rotations(EquationOfMotion::Rotations::following);
+        set_linear(model.body.rotation == RotationMethod::none);
+      }
+    size_limit = smaller ? 0.5 * last_size : last_size;
+    if (time == grid * settings.step) // it is where the step to be done again has landed
+      --grid;
+    started = false;
+    return true;
+  }
+
+
+  void
+  ArkodeIntegrator::accept_step()
+  {
+    size_limit = std::numeric_limits<double>::max();
+    if (settings.method == Method::backward_euler && !equation.rotations_are_frozen())
+      {
+        equation.set_rotations(EquationOfMotion::Rotations::frozen);
+        set_linear(true);
+      }
   }
 
 

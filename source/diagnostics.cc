@@ -1,6 +1,11 @@
 #include <supple/diagnostics.h>
 
+#include <supple/energy_guard.h>
+
 #include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace Supple
 {
@@ -69,6 +74,18 @@ namespace Supple
   }
 
 
+  void
+  Diagnostics::note_extremes(const Measurement &measurement, const double rise)
+  {
+    largest_energy = std::max({largest_energy, std::abs(measurement.total), std::abs(work)});
+    worst.min_volume_ratio = std::min(worst.min_volume_ratio, measurement.min_volume_ratio);
+    worst.max_volume_ratio = std::max(worst.max_volume_ratio, measurement.max_volume_ratio);
+    worst.most_inverted    = std::max(worst.most_inverted, measurement.inverted);
+    if (rise > energy_accuracy * largest_energy)
+      ++worst.energy_rises;
+  }
+
+
   Measurement
   Diagnostics::measure(const unsigned int step,
                        const double time,
@@ -109,6 +126,7 @@ namespace Supple
       dissipated += *report.expended - (result.elastic - elastic);
     else if (!first && !stationary)
       dissipated += report.load_work - (result.total - total);
+    note_extremes(result, first || stationary ? 0. : result.total - total - report.load_work);
     work += report.load_work;
     elastic           = result.elastic;
     total             = result.total;

@@ -20,6 +20,8 @@ namespace Supple
     , system(context)
     , unknowns(equation.n_unknowns(), model.body.mesh.communicator, context)
     , absolute_tolerances(equation.n_unknowns(), model.body.mesh.communicator, context)
+    , guard(model)
+    , guarded(settings.energy_guard == TimeParameters::EnergyGuard::reject)
   {
     for (Vector *vector : {&imbalance, &applied, &work_space})
       model.body.initialize(*vector);
@@ -88,12 +90,38 @@ namespace Supple
   StepReport
   DynamicIntegrator::advance(State &state, const bool observed)
   {
-    if (observed && !started)
+    if (!started && (observed || guarded))
       set_forces(state, time);
+    if (!started && guarded)
+      guard.start(state);
     started = true;
 
-    previous                             = state;
+    const double start                   = time;
     const unsigned int iterations_so_far = equation.linear_iterations;
+    previous                             = state;
+    StepReport report                    = step_once(state, observed || guarded);
+    while (guarded && guard.rises(state, report.load_work) && make_safer())
+      {
+        ++model.effort.rejected_steps;
+        time  = start;
+        state = previous;
+        model.body.update_rotations(state.block(0), model.effort);
+        set_forces(state, time);
+        report = step_once(state, true);
+      }
+    if (guarded)
+      {
+        guard.accept();
+        accept_step();
+      }
+    report.linear_iterations = equation.linear_iterations - iterations_so_far;
+    return report;
+  }
+
+
+  StepReport
+  DynamicIntegrator::step_once(State &state, const bool observed)
+  {
     equation.begin_step(time, state);
     StepReport report;
     try
@@ -108,8 +136,7 @@ namespace Supple
         model.body.update_rotations(state.block(0), model.effort);
         throw;
       }
-    report.dt                = report.time - time;
-    report.linear_iterations = equation.linear_iterations - iterations_so_far;
+    report.dt = report.time - time;
     if (backward_euler) // dt^2/2 |u''|
       report.local_error =
         0.5 * report.dt * largest_vertex_distance(state.block(1), previous.block(1));

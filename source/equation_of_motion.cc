@@ -46,7 +46,16 @@ namespace Supple
            {&start_velocity, &prescribed_displacement, &prescribed_velocity, &shift})
         model.body.initialize(*vector);
 
+    set_rotations(rotations);
+  }
+
+
+  void
+  EquationOfMotion::set_rotations(const Rotations new_rotations)
+  {
     using Choice = TimeParameters::TangentChoice;
+    rotations    = new_rotations;
+    tangent      = Tangent::frozen;
     if (rotations == Rotations::following && model.body.rotation == RotationMethod::polar &&
         model.parameters.time.tangent != Choice::frozen)
       tangent =

@@ -504,6 +504,10 @@ namespace Supple
       throw InputError(parameters.origin("Time/Variable steps") + ": " + method_name() +
                        " has no error estimate to choose steps by. Take ida with Maximum order = 1 "
                        "(backward Euler with variable steps), trbdf2 or esdirk4.");
+    if (energy_guard == EnergyGuard::reject && has_variable_steps())
+      throw InputError(
+        parameters.origin("Time/Energy guard") +
+        ": only fixed steps can be done again. Take warn, or Variable steps = false.");
     if (is_explicit() && !parameters.material.lumped && parameters.material.vertex_mass == 0.)
       throw InputError(
         parameters.origin("Time/Method") +
@@ -627,6 +631,15 @@ namespace Supple
         "none",
         Range::whole_number(0),
         "A fixed step that fails is tried again in halves, at most this many times.");
+    add_choice(
+      prm,
+      "Energy guard",
+      energy_guard,
+      {{"off", EnergyGuard::off}, {"warn", EnergyGuard::warn}, {"reject", EnergyGuard::reject}},
+      "What is done when the total energy rises by more than the work of a step: nothing, a "
+      "warning "
+      "at the end, or the step is done again, backward euler with rotations that follow, and then "
+      "in halves (fixed steps only).");
     prm.leave_subsection();
   }
 

@@ -122,6 +122,10 @@ namespace Supple
         "Gram-Schmidt rotations have no elastic energy: 'elastic' is the energy of the same "
         "formula, and "
         "'dissipated' need not grow. They depend on the axes.");
+    if (diagnostics.extremes().energy_rises > 0 &&
+        parameters.time.energy_guard != TimeParameters::EnergyGuard::off)
+      list.push_back("In " + std::to_string(diagnostics.extremes().energy_rises) +
+                     " steps the total energy rose by more than the work that was done.");
     double poisson = 0.;
     for (const auto &[id, n_cells] : mesh.materials)
       poisson = std::max(poisson, body.material(id).poisson());
@@ -385,6 +389,10 @@ namespace Supple
     summary.probes         = parameters.output.history && !probes.empty();
     summary.observed       = writes;
     summary.last           = now;
+    summary.extremes       = diagnostics.extremes();
+    Vector rest;
+    body.initialize(rest);
+    summary.distance_from_rest = largest_vertex_distance(state.block(0), rest);
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
       write_whole_file(folder + "/summary.json", summary.to_json(model()));
 

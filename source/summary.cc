@@ -90,11 +90,18 @@ namespace Supple
                                    largest_motion > 0. ? error_estimate / largest_motion : 0.}};
       }
     if (observed)
-      json["last"] = energies(last);
-    json["built"]    = what_was_built(*this, model);
-    json["versions"] = {{"supple", SUPPLE_VERSION},
-                        {"deal.II", DEAL_II_PACKAGE_VERSION},
-                        {"SUNDIALS", SUNDIALS_VERSION}};
+      {
+        json["last"]     = energies(last);
+        json["extremes"] = {{"energy_rises", extremes.energy_rises},
+                            {"most_inverted", extremes.most_inverted},
+                            {"min_volume_ratio", extremes.min_volume_ratio},
+                            {"max_volume_ratio", extremes.max_volume_ratio}};
+      }
+    json["distance_from_rest"] = distance_from_rest;
+    json["built"]              = what_was_built(*this, model);
+    json["versions"]           = {{"supple", SUPPLE_VERSION},
+                                  {"deal.II", DEAL_II_PACKAGE_VERSION},
+                                  {"SUNDIALS", SUNDIALS_VERSION}};
     return json.dump(2) + "\n";
   }
 } // namespace Supple

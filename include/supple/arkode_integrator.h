@@ -3,6 +3,8 @@
 
 #include <supple/dynamic_integrator.h>
 
+#include <limits>
+
 namespace Supple
 {
   /**
@@ -29,6 +31,16 @@ namespace Supple
   private:
     StepReport
     take_step(State &state) override;
+
+    bool
+    make_safer() override;
+
+    void
+    accept_step() override;
+
+    /** Stages are one linear system each, or Newton's method. */
+    void
+    set_linear(bool linear);
 
     void
     create_memory();
@@ -66,7 +78,7 @@ namespace Supple
     StepReport
     take_fixed_step(State &state);
 
-    const bool linear; ///< each stage is one linear system
+    bool linear = false; ///< each stage is one linear system
     Sundials::LinearSystem mass_system;
     Sundials::StateVector error;
     void *memory           = nullptr;
@@ -74,7 +86,8 @@ namespace Supple
     double ode_time        = 0.; ///< ARKode's time [s]
     double set_size        = 0.; ///< the fixed step ARKode knows of [s]
     double last_size       = 0.; ///< of the last fixed step that succeeded [s]
-    unsigned int grid      = 0;  ///< multiples of the step that are reached
+    double size_limit      = std::numeric_limits<double>::max(); ///< of the next step [s]
+    unsigned int grid      = 0; ///< multiples of the step that are reached
     long newton_iterations = 0;
   };
 } // namespace Supple

@@ -1,6 +1,7 @@
 #ifndef supple_dynamic_integrator_h
 #define supple_dynamic_integrator_h
 
+#include <supple/energy_guard.h>
 #include <supple/equation_of_motion.h>
 #include <supple/sundials.h>
 
@@ -25,6 +26,17 @@ namespace Supple
      */
     virtual StepReport
     take_step(State &state) = 0;
+
+    /** Prepares to do the last step again in a way that is less likely to raise the energy.
+     * @return false if there is none */
+    virtual bool
+    make_safer() = 0;
+
+    /** The last step stands, and the next one is as usual again. */
+    virtual void
+    accept_step()
+    {
+    }
 
     /** Sets the absolute tolerance of each unknown. @return the relative tolerance */
     double
@@ -60,6 +72,12 @@ namespace Supple
     void
     set_forces(const State &state, double at_time);
 
+    /** One step and what is to be known of it. @throws ComputationError with the state as it was */
+    StepReport
+    step_once(State &state, bool observed);
+
+    EnergyGuard guard;
+    const bool guarded;
     bool started = false;
     State previous;
     Vector imbalance; ///< f_int + D v - f, at the end of the last observed step [N]

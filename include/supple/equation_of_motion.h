@@ -102,6 +102,9 @@ namespace Supple
       return gamma;
     }
 
+    void
+    set_rotations(Rotations rotations);
+
     bool
     rotations_are_frozen() const
     {
@@ -136,7 +139,7 @@ namespace Supple
     assemble();
 
     const unsigned int n; ///< own degrees of freedom
-    const Rotations rotations;
+    Rotations rotations;
     Tangent tangent;        ///< wanted
     bool gives_way = false; ///< a tangent that is not definite is replaced by one that is
     bool replaced  = false; ///< since the last begin_step()

@@ -23,6 +23,12 @@ namespace Supple
     StepReport
     take_step(State &state) override;
 
+    bool
+    make_safer() override
+    {
+      return false; // its steps are chosen by its error
+    }
+
     void
     create_memory();
 

@@ -186,6 +186,13 @@ namespace Supple
       ida
     };
 
+    enum class EnergyGuard
+    {
+      off,
+      warn,
+      reject
+    };
+
     enum class TangentChoice
     {
       automatic,
@@ -208,6 +215,7 @@ namespace Supple
     double newton_tolerance       = 1e-8;
     unsigned int newton_limit     = 100;
     unsigned int n_retries        = 10;
+    EnergyGuard energy_guard      = EnergyGuard::off;
 
     void
     declare(dealii::ParameterHandler &prm);
