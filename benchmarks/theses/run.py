@@ -19,8 +19,8 @@ SWINGING = {"Motion/Displacement": "0.001*(1 - cos(20*pi*t)); 0; 0"}  # a vein a
 # Body: vertices and tetrahedra in the thesis; then for each model the scene, what is set in it, frames a second there.
 BODIES = {
     "bar": (81, 192, [("bar/large-linear", {}, 372), ("bar/large", {}, 12)]),
-    "mushroom": (219, 656, [("mushroom/linear", {}, 109), ("mushroom/corotational", {}, 2)]),
-    "armadillo": (285, 787, [("armadillo/linear", {}, 101), ("armadillo/corotational", {}, 2)]),
+    "mushroom": (219, 656, [("mushroom/mushroom-linear", {}, 109), ("mushroom/mushroom", {}, 2)]),
+    "armadillo": (285, 787, [("armadillo/armadillo-linear", {}, 101), ("armadillo/armadillo", {}, 2)]),
     "vein": (660, 1890, [("vein/test-2", {**SWINGING, **LINEAR}, 17), ("vein/test-2", SWINGING, None)]),
 }
 TRIAL = 100  # steps that tell how many more a run must have
