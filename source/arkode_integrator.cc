@@ -2,6 +2,7 @@
 #include <supple/error.h>
 
 #include <arkode/arkode_arkstep.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -91,7 +92,6 @@ namespace Supple
       set_linear_systems();
     if (adaptive)
       {
-        ARKStepSetInitStep(memory, settings.step);
         ARKStepSetMaxStep(memory, settings.longest_step);
       }
     else
@@ -109,6 +109,25 @@ namespace Supple
   ArkodeIntegrator::name() const
   {
     return settings.method_name() + " (ARKode" + (adaptive ? ", variable steps)" : ")");
+  }
+
+
+  nlohmann::json
+  ArkodeIntegrator::save()
+  {
+    started = false;
+    if (adaptive)
+      ARKStepGetCurrentStep(memory, &last_size);
+    return {{"time", time}, {"grid", grid}, {"last_size", last_size}};
+  }
+
+
+  void
+  ArkodeIntegrator::load(const nlohmann::json &saved)
+  {
+    time      = saved.at("time");
+    grid      = saved.at("grid");
+    last_size = saved.at("last_size");
   }
 
 
@@ -234,7 +253,10 @@ namespace Supple
     equation.get_unknowns(unknowns.data(), state);
     ARKStepReset(memory, time, unknowns);
     if (adaptive)
-      ARKStepSetStopTime(memory, end); // which the line above has made it forget
+      {
+        ARKStepSetStopTime(memory, end); // which the line above has made it forget
+        ARKStepSetInitStep(memory, last_size);
+      }
     started = true;
   }
 

@@ -4,6 +4,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -83,6 +85,37 @@ namespace Supple
     worst.most_inverted    = std::max(worst.most_inverted, measurement.inverted);
     if (rise > energy_accuracy * largest_energy)
       ++worst.energy_rises;
+  }
+
+
+  nlohmann::json
+  Diagnostics::save() const
+  {
+    return {{"elastic", elastic},
+            {"total", total},
+            {"dissipated", dissipated},
+            {"work", work},
+            {"largest_energy", largest_energy},
+            {"energy_rises", worst.energy_rises},
+            {"most_inverted", worst.most_inverted},
+            {"min_volume_ratio", worst.min_volume_ratio},
+            {"max_volume_ratio", worst.max_volume_ratio}};
+  }
+
+
+  void
+  Diagnostics::load(const nlohmann::json &saved)
+  {
+    first                  = false;
+    elastic                = saved.at("elastic");
+    total                  = saved.at("total");
+    dissipated             = saved.at("dissipated");
+    work                   = saved.at("work");
+    largest_energy         = saved.at("largest_energy");
+    worst.energy_rises     = saved.at("energy_rises");
+    worst.most_inverted    = saved.at("most_inverted");
+    worst.min_volume_ratio = saved.at("min_volume_ratio");
+    worst.max_volume_ratio = saved.at("max_volume_ratio");
   }
 
 

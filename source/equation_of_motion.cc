@@ -83,6 +83,8 @@ namespace Supple
   void
   EquationOfMotion::get_unknowns(double *y, const State &state)
   {
+    contraction = 1.; // nothing is known of what was
+    stage_time  = -1.;
     scratch = state.block(0);
     model.constraints.set_zero(scratch);
     copy_out(y, scratch);

@@ -8,6 +8,8 @@
 #include <deal.II/fe/mapping_fe_field.h>
 #include <deal.II/numerics/data_out.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <sstream>
 
@@ -21,6 +23,30 @@ namespace Supple
     , folder(folder)
   {
     body.initialize(last_displacement);
+  }
+
+
+  nlohmann::json
+  Frames::save() const
+  {
+    return {{"records", records},
+            {"step", last.step},
+            {"time", last.time},
+            {"min_volume_ratio", min_volume_ratio},
+            {"max_volume_ratio", max_volume_ratio},
+            {"inverted", inverted}};
+  }
+
+
+  void
+  Frames::load(const nlohmann::json &saved)
+  {
+    records          = saved.at("records").get<std::vector<std::pair<double, std::string>>>();
+    last.step        = saved.at("step");
+    last.time        = saved.at("time");
+    min_volume_ratio = saved.at("min_volume_ratio");
+    max_volume_ratio = saved.at("max_volume_ratio");
+    inverted         = saved.at("inverted");
   }
 
 

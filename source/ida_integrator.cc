@@ -2,6 +2,7 @@
 #include <supple/ida_integrator.h>
 
 #include <idas/idas.h>
+#include <nlohmann/json.hpp>
 
 namespace Supple
 {
@@ -12,6 +13,7 @@ namespace Supple
     , rates(equation.n_unknowns(), model.body.mesh.communicator, context)
     , error(equation.n_unknowns(), model.body.mesh.communicator, context)
     , work_space(equation.n_unknowns())
+    , last_size(settings.step)
   {
     create_memory();
     set_linear_system();
@@ -29,6 +31,23 @@ namespace Supple
   {
     return "backward differentiation up to order " + std::to_string(settings.maximum_order) +
            " (IDA, variable steps)";
+  }
+
+
+  nlohmann::json
+  IdaIntegrator::save()
+  {
+    started = false; // the formulas' past is not kept: they begin anew at order one
+    IDAGetCurrentStep(memory, &last_size);
+    return {{"time", time}, {"last_size", last_size}};
+  }
+
+
+  void
+  IdaIntegrator::load(const nlohmann::json &saved)
+  {
+    time      = saved.at("time");
+    last_size = saved.at("last_size");
   }
 
 
@@ -52,8 +71,6 @@ namespace Supple
     IDASVtolerances(memory, set_tolerances(), absolute_tolerances);
     IDASetMaxOrd(memory, settings.maximum_order);
     IDASetMaxNumSteps(memory, -1);
-    IDASetStopTime(memory, end);
-    IDASetInitStep(memory, settings.step);
     if (settings.longest_step > 0.)
       IDASetMaxStep(memory, settings.longest_step);
   }
@@ -109,6 +126,8 @@ namespace Supple
     equation.evaluate(work_space.data(), time, unknowns.data());
     equation.solve_mass(rates.data(), work_space.data());
     IDAReInit(memory, time, unknowns, rates);
+    IDASetStopTime(memory, end);
+    IDASetInitStep(memory, last_size);
     started = true;
   }
 

@@ -831,6 +831,36 @@ namespace Supple
     solver.declare(prm);
     output.declare(prm);
     probes.declare(prm);
+    checkpoint.declare(prm);
+  }
+
+
+  void
+  CheckpointParameters::declare(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Checkpoint");
+    add(prm,
+        "Every",
+        every,
+        "steps",
+        Range::whole_number(0),
+        "A checkpoint, from which the run can go on, is written after so many steps; 0: not by "
+        "steps.");
+    add(prm,
+        "Minutes",
+        minutes,
+        "min",
+        Range::at_least(0),
+        "A checkpoint is written after so much time on the clock; 0: not by the clock. Where "
+        "either is "
+        "set, Ctrl-C and SIGTERM write one too.");
+    add_choice(
+      prm,
+      "Resume",
+      resume,
+      {{"auto", true}, {"never", false}},
+      "auto: go on from the checkpoint in the output folder, if there is one. never: begin anew.");
+    prm.leave_subsection();
   }
 
 

@@ -7,6 +7,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/physics/transformations.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -37,6 +39,7 @@ namespace Supple
     , solver(LinearSolver::create(implicit_operator, parameters, effort))
     , diagnostics(body, loads, stationary)
     , progress(talks, Utilities::MPI::n_mpi_processes(communicator) > 1)
+    , checkpoint(body, parameters, folder)
   {
     if (stationary && constraints.n_pieces_free > 0 && constraints.n_held > 0)
       throw InputError(
@@ -67,6 +70,13 @@ namespace Supple
   Simulation::seconds_since_start() const
   {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+
+  double
+  Simulation::seconds_of_run() const
+  {
+    return seconds_before + seconds_since_start() - setup_seconds;
   }
 
 
@@ -237,29 +247,25 @@ namespace Supple
   void
   Simulation::open_output()
   {
-    const bool root = Utilities::MPI::this_mpi_process(communicator) == 0;
+    if (parameters.output.frames != OutputParameters::Frames::none)
+      frames = std::make_unique<Frames>(body, parameters.output, folder);
+    resume();
+
     std::string problem;
-    if (root)
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
       try
         {
-          namespace fs = std::filesystem;
-          fs::create_directories(fs::path(folder) / "solution");
-          for (const char *name : {"solution.pvd", "history.csv", "probes.csv", "summary.json"})
-            fs::remove(fs::path(folder) / name);
-          for (const auto &entry : fs::directory_iterator(fs::path(folder) / "solution"))
-            if (entry.path().filename().string().rfind("frame_", 0) == 0)
-              fs::remove(entry.path()); // of an earlier run
+          if (!resumed)
+            clear_folder();
           std::ostringstream used;
           parameters.print(used);
           write_whole_file(folder + "/parameters.prm", used.str());
           if (parameters.output.history)
-            {
-              history =
-                std::make_unique<CsvFile>(folder + "/history.csv", Measurement::column_names());
-              if (!probes.empty())
-                probe_history =
-                  std::make_unique<CsvFile>(folder + "/probes.csv", probes.column_names());
-            }
+            open_tables();
+        }
+      catch (const InputError &error)
+        {
+          problem = error.what();
         }
       catch (const std::exception &exception)
         {
@@ -269,8 +275,93 @@ namespace Supple
     problem = Utilities::MPI::broadcast(communicator, problem);
     if (!problem.empty())
       throw InputError(problem);
-    if (parameters.output.frames != OutputParameters::Frames::none)
-      frames = std::make_unique<Frames>(body, parameters.output, folder);
+  }
+
+
+  void
+  Simulation::clear_folder() const
+  {
+    namespace fs = std::filesystem;
+    fs::create_directories(fs::path(folder) / "solution");
+    for (const char *name : {"solution.pvd",
+                             "history.csv",
+                             "probes.csv",
+                             "summary.json",
+                             "checkpoint.cbor",
+                             "checkpoint.previous.cbor"})
+      fs::remove(fs::path(folder) / name);
+    for (const auto &entry : fs::directory_iterator(fs::path(folder) / "solution"))
+      if (entry.path().filename().string().rfind("frame_", 0) == 0)
+        fs::remove(entry.path()); // of an earlier run
+  }
+
+
+  void
+  Simulation::open_tables()
+  {
+    const auto open = [&](const std::string &name, const std::vector<std::string> &columns) {
+      const std::string file = folder + "/" + name;
+      return resumed ? std::make_unique<CsvFile>(file, step + 1)
+                     : std::make_unique<CsvFile>(file, columns);
+    };
+    history = open("history.csv", Measurement::column_names());
+    if (!probes.empty())
+      probe_history = open("probes.csv", probes.column_names());
+  }
+
+
+  std::vector<Vector *>
+  Simulation::kept_vectors()
+  {
+    std::vector<Vector *> vectors;
+    for (unsigned int b = 0; b < state.n_blocks(); ++b)
+      vectors.push_back(&state.block(b));
+    if (frames)
+      vectors.push_back(&frames->displacement_of_last());
+    return vectors;
+  }
+
+
+  void
+  Simulation::resume()
+  {
+    if (!parameters.checkpoint.resume)
+      return;
+    const auto saved = checkpoint.read(kept_vectors());
+    if (!saved)
+      return;
+    resumed        = true;
+    step           = saved->at("step");
+    now.step       = step;
+    now.time       = saved->at("time");
+    error_estimate = saved->at("error_estimate");
+    largest_motion = saved->at("largest_motion");
+    seconds_before = saved->at("seconds");
+    integrator->load(saved->at("integrator"));
+    body.update_rotations(state.block(0), effort);
+    if (writes)
+      diagnostics.load(saved->at("diagnostics"));
+    if (frames)
+      frames->load(saved->at("frames"));
+  }
+
+
+  void
+  Simulation::write_checkpoint()
+  {
+    const PhaseTimer timer(effort, Phase::output);
+    nlohmann::json rest = {{"step", step},
+                           {"time", now.time},
+                           {"error_estimate", error_estimate},
+                           {"largest_motion", largest_motion},
+                           {"seconds", seconds_of_run()},
+                           {"integrator", integrator->save()}};
+    if (writes)
+      rest["diagnostics"] = diagnostics.save();
+    if (frames)
+      rest["frames"] = frames->save();
+    const auto vectors = kept_vectors();
+    checkpoint.write(step, {vectors.begin(), vectors.end()}, rest);
   }
 
 
@@ -281,7 +372,8 @@ namespace Supple
     print_description(false);
     try
       {
-        record(StepReport());
+        if (!resumed)
+          record(StepReport());
         time_loop();
       }
     catch (const InterruptedError &)
@@ -314,9 +406,13 @@ namespace Supple
       {
         advance();
         progress.update(step, now.time / integrator->end);
+        if (parameters.checkpoint.wanted() && checkpoint.due(step))
+          write_checkpoint();
         if (!integrator->finished() && interrupt.requested(communicator))
           {
             progress.clear();
+            if (parameters.checkpoint.wanted())
+              write_checkpoint();
             finish("interrupted");
             throw InterruptedError("Interrupted after step " + std::to_string(step) +
                                    "; the results so far are in " + folder + ".");
@@ -348,8 +444,7 @@ namespace Supple
       return;
     {
       const PhaseTimer timer(effort, Phase::diagnostics);
-      now =
-        diagnostics.measure(step, now.time, seconds_since_start() - setup_seconds, state, report);
+      now = diagnostics.measure(step, now.time, seconds_of_run(), state, report);
     }
     const PhaseTimer timer(effort, Phase::output);
     if (history)
@@ -381,7 +476,7 @@ namespace Supple
     summary.integrator     = integrator->name();
     summary.steps          = step;
     summary.setup_seconds  = setup_seconds;
-    summary.run_seconds    = seconds_since_start() - setup_seconds;
+    summary.run_seconds    = seconds_of_run();
     summary.error_estimate = error_estimate;
     summary.largest_motion = largest_motion;
     summary.frames         = frames ? frames->n_written() : 0;

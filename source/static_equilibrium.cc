@@ -4,6 +4,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <sstream>
 
@@ -26,6 +28,21 @@ namespace Supple
   {
     return model.body.rotation == RotationMethod::none ? "static, one linear solution a load step"
                                                        : "static, Newton's method in load steps";
+  }
+
+
+  nlohmann::json
+  StaticEquilibrium::save()
+  {
+    return {{"time", time}, {"done", n_done}};
+  }
+
+
+  void
+  StaticEquilibrium::load(const nlohmann::json &saved)
+  {
+    time   = saved.at("time");
+    n_done = saved.at("done");
   }
 
 

@@ -19,6 +19,36 @@ namespace Supple
   }
 
 
+  namespace
+  {
+    void
+    cut_after_rows(const std::string &file, const unsigned long n_rows)
+    {
+      std::ifstream stream(file);
+      std::ostringstream kept;
+      std::string line;
+      for (unsigned long row = 0; row <= n_rows; ++row)
+        {
+          if (!std::getline(stream, line))
+            throw InputError(file + " has fewer rows than the checkpoint beside it knows of: " +
+                             "begin anew with Checkpoint/Resume = never.");
+          kept << line << '\n';
+        }
+      write_whole_file(file, kept.str());
+    }
+  } // namespace
+
+
+  CsvFile::CsvFile(const std::string &file, const unsigned long n_rows)
+    : file(file)
+  {
+    cut_after_rows(file, n_rows);
+    stream.open(file, std::ios::app);
+    if (!stream)
+      throw WriteError(file + " can't be written.");
+  }
+
+
   void
   CsvFile::write_row(const std::vector<double> &values)
   {

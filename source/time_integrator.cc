@@ -3,6 +3,8 @@
 #include <supple/static_equilibrium.h>
 #include <supple/time_integrator.h>
 
+#include <nlohmann/json.hpp>
+
 namespace Supple
 {
   TimeIntegrator::TimeIntegrator(const Model &model, const double end)
@@ -22,6 +24,20 @@ namespace Supple
     if (model.parameters.time.method == TimeParameters::Method::ida)
       return std::make_unique<IdaIntegrator>(model);
     return std::make_unique<ArkodeIntegrator>(model);
+  }
+
+
+  nlohmann::json
+  TimeIntegrator::save()
+  {
+    return {{"time", time}};
+  }
+
+
+  void
+  TimeIntegrator::load(const nlohmann::json &saved)
+  {
+    time = saved.at("time");
   }
 
 

@@ -28,6 +28,12 @@ namespace Supple
     std::string
     name() const override;
 
+    nlohmann::json
+    save() override;
+
+    void
+    load(const nlohmann::json &saved) override;
+
   private:
     StepReport
     take_step(State &state) override;

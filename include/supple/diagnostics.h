@@ -3,6 +3,8 @@
 
 #include <supple/time_integrator.h>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <array>
 #include <string>
 #include <vector>
@@ -70,6 +72,13 @@ namespace Supple
             double seconds,
             const State &state,
             const StepReport &report);
+
+    /** What a checkpoint has to keep of it. */
+    nlohmann::json
+    save() const;
+
+    void
+    load(const nlohmann::json &saved);
 
     const Extremes &
     extremes() const

@@ -29,6 +29,19 @@ namespace Supple
     void
     write(const State &state, const Measurement &now);
 
+    /** What a checkpoint has to keep of it beside displacement_of_last(). */
+    nlohmann::json
+    save() const;
+
+    void
+    load(const nlohmann::json &saved);
+
+    Vector &
+    displacement_of_last()
+    {
+      return last_displacement;
+    }
+
     unsigned int
     n_written() const
     {

@@ -19,6 +19,12 @@ namespace Supple
     std::string
     name() const override;
 
+    nlohmann::json
+    save() override;
+
+    void
+    load(const nlohmann::json &saved) override;
+
   private:
     StepReport
     take_step(State &state) override;
@@ -45,6 +51,7 @@ namespace Supple
 
     Sundials::StateVector rates, error;
     std::vector<double> work_space;
+    double last_size; ///< a first step that is tried [s]
     void *memory           = nullptr;
     bool started           = false;
     long newton_iterations = 0;

@@ -298,6 +298,23 @@ namespace Supple
   };
 
 
+  struct CheckpointParameters
+  {
+    unsigned int every = 0;  ///< steps; 0: never
+    double minutes     = 0.; ///< of wall time; 0: never
+    bool resume        = false;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+
+    bool
+    wanted() const
+    {
+      return every > 0 || minutes > 0.;
+    }
+  };
+
+
   /**
    * Everything a scene file can say, one struct per subsection. Nothing else in the program reads a
    * parameter file.
@@ -316,6 +333,7 @@ namespace Supple
     SolverParameters solver;
     OutputParameters output;
     ProbeParameters probes;
+    CheckpointParameters checkpoint;
 
     std::string scene_name;   ///< of the file, without folder and ending
     std::string scene_folder; ///< where files that the scene names are looked for

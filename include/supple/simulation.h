@@ -1,6 +1,7 @@
 #ifndef supple_simulation_h
 #define supple_simulation_h
 
+#include <supple/checkpoint.h>
 #include <supple/diagnostics.h>
 #include <supple/frames.h>
 #include <supple/probes.h>
@@ -59,6 +60,25 @@ namespace Supple
     void
     open_output();
 
+    /** Makes the folder and takes the results of an earlier run out of it. */
+    void
+    clear_folder() const;
+
+    /** On the first process, anew or after so many rows. */
+    void
+    open_tables();
+
+    /** Goes on from the checkpoint in the output folder, if that is wanted and there is one. */
+    void
+    resume();
+
+    void
+    write_checkpoint();
+
+    /** What a checkpoint keeps beside the state. */
+    std::vector<Vector *>
+    kept_vectors();
+
     void
     time_loop();
 
@@ -74,6 +94,10 @@ namespace Supple
 
     double
     seconds_since_start() const;
+
+    /** Without set-up, with the runs that this one goes on from. */
+    double
+    seconds_of_run() const;
 
     const Parameters parameters;
     const std::string folder;
@@ -98,8 +122,11 @@ namespace Supple
     std::unique_ptr<CsvFile> history;
     std::unique_ptr<CsvFile> probe_history;
     std::unique_ptr<Frames> frames;
+    Checkpoint checkpoint;
 
-    unsigned int step = 0;
+    unsigned int step     = 0;
+    bool resumed          = false;
+    double seconds_before = 0.; ///< of the runs that this one goes on from
     Measurement now;
     double error_estimate = 0.; ///< sum of the local errors [m]
     Vector start_displacement;

@@ -25,6 +25,12 @@ namespace Supple
     std::string
     name() const override;
 
+    nlohmann::json
+    save() override;
+
+    void
+    load(const nlohmann::json &saved) override;
+
   private:
     /** s f - f_int(u), with the rotations updated to u; the held entries are the reactions with a
      * minus sign. */

@@ -5,6 +5,8 @@
 #include <supple/linear_solver.h>
 #include <supple/loads.h>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,6 +66,14 @@ namespace Supple
      */
     virtual StepReport
     advance(State &state, bool observed) = 0;
+
+    /** What a checkpoint has to keep of it beside the state; and what the steps that follow depend
+     * on else is forgotten, so that they are the same as those of a run that goes on from there. */
+    virtual nlohmann::json
+    save();
+
+    virtual void
+    load(const nlohmann::json &saved);
 
     bool
     finished() const
