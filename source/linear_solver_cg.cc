@@ -166,7 +166,7 @@ namespace Supple
       void
       make_pattern()
       {
-        const IndexSet &owned = A.body.dof_handler.locally_owned_dofs();
+        const IndexSet &owned = A.body.partitioner->locally_owned_range();
         DynamicSparsityPattern sparsity(owned.size(), owned.size(), owned);
         for (unsigned int i = 0; i < rows.size(); ++i)
           for (const Entry &entry : rows[i])

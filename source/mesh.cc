@@ -4,8 +4,6 @@
 #include <supple/expression.h>
 
 #include <deal.II/base/utilities.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria_description.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -17,31 +15,6 @@ namespace Supple
 
   namespace
   {
-    void
-    create_triangulation(const SerialMesh &mesh, Triangulation<3> &triangulation)
-    {
-      std::vector<CellData<3>> cells;
-      cells.reserve(mesh.cells.size());
-      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-        {
-          cells.emplace_back(4);
-          std::copy(mesh.cells[c].begin(), mesh.cells[c].end(), cells.back().vertices.begin());
-          cells.back().material_id = mesh.materials[c];
-        }
-      SubCellData faces;
-      faces.boundary_quads.reserve(mesh.boundary.size());
-      for (const auto &triangle : mesh.boundary)
-        {
-          faces.boundary_quads.emplace_back(3);
-          std::copy(triangle.vertices.begin(),
-                    triangle.vertices.end(),
-                    faces.boundary_quads.back().vertices.begin());
-          faces.boundary_quads.back().boundary_id = triangle.boundary_id;
-        }
-      triangulation.create_triangulation(mesh.vertices, cells, faces);
-    }
-
-
     /** "[0, 4] x [0, 12] x [0, 4]" */
     std::string
     extent_of(const BoundingBox<3> &box)
@@ -58,8 +31,8 @@ namespace Supple
     box_around(const SerialMesh &mesh)
     {
       Point<3> low = mesh.vertices[mesh.cells[0][0]], high = low;
-      for (const auto &cell : mesh.cells)
-        for (const unsigned int v : cell)
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        for (const unsigned int v : mesh.cell_vertices(c))
           for (unsigned int d = 0; d < 3; ++d)
             {
               low[d]  = std::min(low[d], mesh.vertices[v][d]);
@@ -88,16 +61,17 @@ namespace Supple
           const Expression inside(item.substr(colon + 1), 1, origin);
 
           unsigned int n_faces = 0;
-          for (auto &triangle : mesh.boundary)
-            if (std::all_of(triangle.vertices.begin(),
-                            triangle.vertices.end(),
-                            [&](const unsigned int v) {
-                              return inside.value(mesh.vertices[v], 0.) != 0.;
-                            }))
-              {
-                triangle.boundary_id = std::stoul(id);
-                ++n_faces;
-              }
+          for (auto &face : mesh.boundary)
+            {
+              const auto vertices = mesh.face_vertices(face);
+              if (std::all_of(vertices.begin(), vertices.end(), [&](const unsigned int v) {
+                    return inside.value(mesh.vertices[v], 0.) != 0.;
+                  }))
+                {
+                  face.boundary_id = std::stoul(id);
+                  ++n_faces;
+                }
+            }
           if (n_faces == 0)
             throw InputError(origin + ": no face of the surface has all its vertices in '" +
                              item.substr(colon + 1) + "'. The body lies in " +
@@ -130,7 +104,6 @@ namespace Supple
 
   Mesh::Mesh(const Parameters &parameters, const MPI_Comm communicator)
     : communicator(communicator)
-    , triangulation(communicator)
   {
     SerialMesh mesh = make_serial_mesh(parameters);
     report          = check_mesh(mesh,
@@ -140,25 +113,7 @@ namespace Supple
     assign_boundary_regions(mesh, parameters);
     measure(mesh);
 
-    Triangulation<3> serial;
-    create_triangulation(mesh, serial);
-    GridTools::partition_triangulation(Utilities::MPI::n_mpi_processes(communicator),
-                                       serial,
-                                       SparsityTools::Partitioner::metis);
-    std::vector<unsigned int> cells_of(Utilities::MPI::n_mpi_processes(communicator));
-    for (const auto &cell : serial.active_cell_iterators())
-      ++cells_of[cell->subdomain_id()];
-    if (*std::min_element(cells_of.begin(), cells_of.end()) == 0)
-      throw InputError(std::to_string(cells_of.size()) + " processes are too many for " +
-                       std::to_string(n_cells) + " cells: one of them would have none.");
-    triangulation.create_triangulation(
-      TriangulationDescription::Utilities::create_description_from_triangulation(serial,
-                                                                                 communicator));
-
-    serial_vertex.resize(triangulation.n_vertices());
-    for (const auto &cell : triangulation.active_cell_iterators())
-      for (const unsigned int v : cell->vertex_indices())
-        serial_vertex[cell->vertex_index(v)] = mesh.cells[cell->id().get_coarse_cell_id()][v];
+    parts = DistributedMesh::create(mesh, communicator);
   }
 
 
@@ -174,8 +129,8 @@ namespace Supple
         volume += mesh.volume(c);
         ++materials[mesh.materials[c]];
       }
-    for (const auto &triangle : mesh.boundary)
-      ++boundaries[triangle.boundary_id];
+    for (const auto &face : mesh.boundary)
+      ++boundaries[face.boundary_id];
   }
 
 

@@ -11,10 +11,10 @@ namespace Supple
   double
   SerialMesh::volume(const std::size_t cell) const
   {
-    const Point<3> &origin = vertices[cells[cell][0]];
-    return dealii::cross_product_3d(vertices[cells[cell][1]] - origin,
-                                    vertices[cells[cell][2]] - origin) *
-           (vertices[cells[cell][3]] - origin) / 6.;
+    const Point<3> &origin    = vertices[cells[cell][0]];
+    const Tensor<1, 3> normal = dealii::cross_product_3d(vertices[cells[cell][1]] - origin,
+                                                         vertices[cells[cell][2]] - origin);
+    return dimension == 2 ? 0.5 * normal[2] : normal * (vertices[cells[cell][3]] - origin) / 6.;
   }
 
 

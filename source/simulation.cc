@@ -213,9 +213,8 @@ namespace Supple
       print_mesh_details();
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     line("unknowns",
-         std::to_string(body.dof_handler.n_dofs()) + ", of which " +
-           std::to_string(constraints.n_held) + " are held; " +
-           (n_ranks == 1 ? "1 process" : std::to_string(n_ranks) + " processes"));
+         std::to_string(body.n_dofs()) + ", of which " + std::to_string(constraints.n_held) +
+           " are held; " + (n_ranks == 1 ? "1 process" : std::to_string(n_ranks) + " processes"));
     line("model", rotations[static_cast<unsigned int>(body.rotation)]);
     line("time", time.str());
     line("solver", solver->name() + " (" + solver->reason + ")");

@@ -6,10 +6,6 @@
 #include <supple/tetrahedra.h>
 #include <supple/vector.h>
 
-#include <deal.II/base/partitioner.h>
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/fe_system.h>
-
 #include <memory>
 
 namespace Supple
@@ -29,20 +25,22 @@ namespace Supple
 
     const Mesh &mesh;
     const RotationMethod rotation;
-    const dealii::FESystem<3> fe;
-    dealii::DoFHandler<3> dof_handler;
+    const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
 
-    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
+    const unsigned int n_owned;                          ///< nodes
+    const unsigned int n_local;                          ///< nodes, ghosts included
+    const std::vector<std::array<double, 3>> &positions; ///< at rest [m], of local nodes
+    const std::vector<unsigned int> &serial_vertex;      ///< vertex index in the unpartitioned mesh
 
-    unsigned int n_owned;                                ///< nodes
-    unsigned int n_local;                                ///< nodes, ghosts included
-    std::vector<std::array<double, 3>> positions;        ///< at rest [m], of local nodes
-    std::vector<unsigned int> serial_vertex;             ///< vertex index in the unpartitioned mesh
     std::vector<std::array<unsigned int, 4>> cell_nodes; ///< local node numbers
-    std::vector<unsigned int> active_cell;               ///< active_cell_index() of each cell
+    std::vector<unsigned int> cell_index;                ///< place in values by cell
     std::vector<unsigned int> cell_material;             ///< material id of each cell
 
     std::unique_ptr<Tetrahedra> tetrahedra;
+
+    /** Degrees of freedom on all processes. */
+    unsigned int
+    n_dofs() const;
 
     void
     initialize(Vector &vector) const;
@@ -99,9 +97,6 @@ namespace Supple
     require_boundary(unsigned int boundary_id, const std::string &origin) const;
 
     std::map<unsigned int, IsotropicMaterial> materials;
-
-    void
-    number_nodes();
 
     void
     collect_cells(const Parameters &parameters);

@@ -1,14 +1,13 @@
 #ifndef supple_mesh_h
 #define supple_mesh_h
 
+#include <supple/distributed_mesh.h>
 #include <supple/mesh_check.h>
-#include <supple/serial_mesh.h>
 
 #include <deal.II/base/bounding_box.h>
-#include <deal.II/distributed/fully_distributed_tria.h>
 
-#include <array>
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace Supple
@@ -21,11 +20,7 @@ namespace Supple
     Mesh(const Parameters &parameters, MPI_Comm communicator);
 
     const MPI_Comm communicator;
-    dealii::parallel::fullydistributed::Triangulation<3> triangulation;
-
-    /** Index in the mesh before it was partitioned, for each vertex of this process's
-     * triangulation. */
-    std::vector<unsigned int> serial_vertex;
+    std::unique_ptr<DistributedMesh> parts;
 
     unsigned int n_cells;                            ///< on all processes
     unsigned int n_vertices;                         ///< on all processes

@@ -3,6 +3,7 @@
 
 #include <supple/parameters.h>
 
+#include <deal.II/base/array_view.h>
 #include <deal.II/base/point.h>
 
 #include <array>
@@ -11,21 +12,37 @@
 
 namespace Supple
 {
-  /** A mesh of tetrahedra as plain lists, the same on every process. */
+  /** A mesh of tetrahedra, or of triangles in the plane z = 0, as plain lists, the same on every
+   * process. */
   struct SerialMesh
   {
-    struct BoundaryTriangle
+    /** A triangle, or an edge of a triangle. */
+    struct BoundaryFace
     {
-      std::array<unsigned int, 3> vertices;
+      std::array<unsigned int, 3> vertices; ///< of which the first `dimension` count
       unsigned int boundary_id;
     };
 
-    std::vector<dealii::Point<3>> vertices; ///< [m]
-    std::vector<std::array<unsigned int, 4>> cells;
-    std::vector<unsigned int> materials; ///< of the cells
-    std::vector<BoundaryTriangle> boundary;
+    unsigned int dimension = 3;                     ///< of the cells: 3 tetrahedra, 2 triangles
+    std::vector<dealii::Point<3>> vertices;         ///< [m]
+    std::vector<std::array<unsigned int, 4>> cells; ///< of which the first `dimension` + 1 count
+    std::vector<unsigned int> materials;            ///< of the cells
+    std::vector<BoundaryFace> boundary;
 
-    /** Signed volume of a cell [m^3], positive if it is oriented as it should be. */
+    dealii::ArrayView<const unsigned int>
+    cell_vertices(const std::size_t cell) const
+    {
+      return {cells[cell].data(), dimension + 1};
+    }
+
+    dealii::ArrayView<const unsigned int>
+    face_vertices(const BoundaryFace &face) const
+    {
+      return {face.vertices.data(), dimension};
+    }
+
+    /** Signed volume of a cell [m^3], or area of a triangle [m^2], positive if it is oriented as it
+     * should be. */
     double
     volume(std::size_t cell) const;
   };
