@@ -2,6 +2,7 @@
 
 #include <supple/error.h>
 #include <supple/expression.h>
+#include <supple/plane_check.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -17,10 +18,10 @@ namespace Supple
   {
     /** "[0, 4] x [0, 12] x [0, 4]" */
     std::string
-    extent_of(const BoundingBox<3> &box)
+    extent_of(const BoundingBox<3> &box, const unsigned int dimension)
     {
       std::ostringstream text;
-      for (unsigned int d = 0; d < 3; ++d)
+      for (unsigned int d = 0; d < dimension; ++d)
         text << (d == 0 ? "[" : " x [") << box.lower_bound(d) << ", " << box.upper_bound(d) << "]";
       return text.str();
     }
@@ -39,6 +40,18 @@ namespace Supple
               high[d] = std::max(high[d], mesh.vertices[v][d]);
             }
       return BoundingBox<3>({low, high});
+    }
+
+
+    double
+    volume_of(const SerialMesh &mesh, const std::size_t cell, const Section &section)
+    {
+      if (!section.plane())
+        return mesh.volume(cell);
+      double centroid = 0.;
+      for (const unsigned int v : mesh.cell_vertices(cell))
+        centroid += mesh.vertices[v][0] / 3.;
+      return mesh.volume(cell) * section.thickness_at(centroid);
     }
 
 
@@ -75,7 +88,7 @@ namespace Supple
           if (n_faces == 0)
             throw InputError(origin + ": no face of the surface has all its vertices in '" +
                              item.substr(colon + 1) + "'. The body lies in " +
-                             extent_of(box_around(mesh)) + " m.");
+                             extent_of(box_around(mesh), mesh.dimension) + " m.");
         }
     }
   } // namespace
@@ -90,6 +103,8 @@ namespace Supple
           return box_mesh(parameters.mesh);
         case MeshParameters::Shape::hollow_cylinder:
           return hollow_cylinder_mesh(parameters.mesh);
+        case MeshParameters::Shape::rectangle:
+          return rectangle_mesh(parameters.mesh);
         default:
           {
             const auto file = std::filesystem::path(parameters.scene_folder) / parameters.mesh.file;
@@ -106,10 +121,15 @@ namespace Supple
     : communicator(communicator)
   {
     SerialMesh mesh = make_serial_mesh(parameters);
-    report          = check_mesh(mesh,
+    if (mesh.dimension == 2)
+      section = parameters.plane.section;
+    check_directions(parameters, section);
+    report = check_mesh(mesh,
                         parameters.origin(parameters.mesh.shape == MeshParameters::Shape::file
                                             ? "Mesh/File"
                                             : "Mesh/Shape"));
+    if (section.axisymmetric())
+      fit_to_axis(mesh, parameters);
     assign_boundary_regions(mesh, parameters);
     measure(mesh);
 
@@ -126,7 +146,7 @@ namespace Supple
     volume       = 0.;
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
       {
-        volume += mesh.volume(c);
+        volume += volume_of(mesh, c, section);
         ++materials[mesh.materials[c]];
       }
     for (const auto &face : mesh.boundary)
@@ -145,6 +165,13 @@ namespace Supple
   std::string
   Mesh::extent() const
   {
-    return extent_of(bounding_box);
+    return extent_of(bounding_box, section.plane() ? 2 : 3);
+  }
+
+
+  std::string
+  Mesh::cell_name() const
+  {
+    return section.plane() ? "triangles" : "tetrahedra";
   }
 } // namespace Supple

@@ -481,6 +481,7 @@ namespace Supple
   Parameters::declare(ParameterHandler &prm)
   {
     mesh.declare(prm);
+    plane.declare(prm);
     material.declare(prm);
     corotation.declare(prm);
     damping.declare(prm);
@@ -504,6 +505,7 @@ namespace Supple
                        ": 3 lambda + 2 mu must be positive, or the body gives way to pressure.");
 
     mesh.check(*this);
+    plane.check(*this);
     if (time.problem == TimeParameters::Problem::stationary && damping.any())
       throw InputError(origin("Time/Problem") +
                        ": a static problem knows no velocity; take the damping out of the scene.");

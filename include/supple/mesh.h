@@ -20,6 +20,7 @@ namespace Supple
     Mesh(const Parameters &parameters, MPI_Comm communicator);
 
     const MPI_Comm communicator;
+    Section section; ///< solid, or what stands behind the triangles of a plane body
     std::unique_ptr<DistributedMesh> parts;
 
     unsigned int n_cells;                            ///< on all processes
@@ -34,7 +35,11 @@ namespace Supple
     double
     diameter() const;
 
-    /** "[0, 4] x [0, 12] x [0, 4]" */
+    /** "tetrahedra" or "triangles" */
+    std::string
+    cell_name() const;
+
+    /** "[0, 4] x [0, 12] x [0, 4]"; along x and y alone for a plane body. */
     std::string
     extent() const;
 
