@@ -29,7 +29,15 @@ namespace Supple
   unsigned int
   Body::n_dofs() const
   {
-    return partitioner->size();
+    return mesh.section.plane() ? partitioner->size() / 3 * 2 : partitioner->size();
+  }
+
+
+  bool
+  Body::is_held_by_nature(const unsigned int dof) const
+  {
+    return (mesh.section.plane() && dof % 3 == 2) ||
+           (mesh.section.axisymmetric() && dof % 3 == 0 && positions[dof / 3][0] == 0.);
   }
 
 
@@ -65,8 +73,12 @@ namespace Supple
         cell_index.push_back(cell.index);
         cell_material.push_back(cell.material_id);
       }
-    tetrahedra = std::make_unique<Tetrahedra>(
-      positions, n_owned, cells, parameters.material.lumped, parameters.material.vertex_mass);
+    tetrahedra = std::make_unique<Tetrahedra>(positions,
+                                              n_owned,
+                                              cells,
+                                              parameters.material.lumped,
+                                              parameters.material.vertex_mass,
+                                              mesh.section);
   }
 
 

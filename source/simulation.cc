@@ -44,15 +44,23 @@ namespace Supple
         " of its " + std::to_string(mesh.report.n_pieces) +
         " pieces, which do not hang together, are not held anywhere.");
     if (stationary && constraints.n_free_rigid_motions > 0)
-      throw InputError("A static scene needs a body that is held: " +
-                       std::to_string(constraints.n_free_rigid_motions) +
-                       " of its six rigid motions are free, so that the stiffness is singular. "
-                       "Hold a boundary or a "
-                       "region (subsection Constraints), or make the problem dynamic.");
+      throw InputError("A static scene needs a body that is held: " + free_rigid_motions() +
+                       ", so that the stiffness is singular. Hold a boundary or a region "
+                       "(subsection Constraints), or make the problem dynamic.");
     create_initial_state();
     integrator         = TimeIntegrator::create(model(), state.block(0));
     start_displacement = state.block(0);
     setup_seconds      = seconds_since_start();
+  }
+
+
+  std::string
+  Simulation::free_rigid_motions() const
+  {
+    if (constraints.n_rigid_motions == 1)
+      return "its one rigid motion, along its axis, is free";
+    return std::to_string(constraints.n_free_rigid_motions) + " of its " +
+           (constraints.n_rigid_motions == 6 ? "six" : "three") + " rigid motions are free";
   }
 
 
@@ -125,11 +133,12 @@ namespace Supple
     double poisson = 0.;
     for (const auto &[id, n_cells] : mesh.materials)
       poisson = std::max(poisson, body.material(id).poisson());
-    if (poisson > 0.45)
+    if (poisson > 0.45 && mesh.section.geometry != Geometry::plane_stress)
       {
         std::ostringstream text;
-        text << "Linear tetrahedra are too stiff (they lock) at a Poisson ratio above 0.45; it is "
-             << poisson << ".";
+        text << "Linear " << mesh.cell_name()
+             << " are too stiff (they lock) at a Poisson ratio above 0.45; it is " << poisson
+             << ".";
         list.push_back(text.str());
       }
     return list;
@@ -189,6 +198,25 @@ namespace Supple
   }
 
 
+  std::string
+  Simulation::section_in_words() const
+  {
+    std::ostringstream thickness;
+    thickness << mesh.section.thickness << " m thick, ";
+    switch (mesh.section.geometry)
+      {
+        case Geometry::plane_strain:
+          return "plane strain, " + thickness.str();
+        case Geometry::plane_stress:
+          return "plane stress, " + thickness.str();
+        case Geometry::axisymmetric:
+          return "axisymmetric, ";
+        default:
+          return "";
+      }
+  }
+
+
   void
   Simulation::print_description(const bool in_detail) const
   {
@@ -207,15 +235,16 @@ namespace Supple
 
     std::cout << "Supple " << SUPPLE_VERSION << ", scene " << parameters.scene_name << '\n';
     line("body",
-         std::to_string(mesh.n_cells) + " tetrahedra, " + std::to_string(mesh.n_vertices) +
-           " vertices in " + mesh.extent() + " m, " + volume.str() + " m^3");
+         std::to_string(mesh.n_cells) + " " + mesh.cell_name() + ", " +
+           std::to_string(mesh.n_vertices) + " vertices in " + mesh.extent() + " m, " +
+           volume.str() + " m^3");
     if (in_detail)
       print_mesh_details();
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     line("unknowns",
          std::to_string(body.n_dofs()) + ", of which " + std::to_string(constraints.n_held) +
            " are held; " + (n_ranks == 1 ? "1 process" : std::to_string(n_ranks) + " processes"));
-    line("model", rotations[static_cast<unsigned int>(body.rotation)]);
+    line("model", section_in_words() + rotations[static_cast<unsigned int>(body.rotation)]);
     line("time", time.str());
     line("solver", solver->name() + " (" + solver->reason + ")");
     for (const std::string &text : probes.descriptions())

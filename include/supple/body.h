@@ -38,9 +38,14 @@ namespace Supple
 
     std::unique_ptr<Tetrahedra> tetrahedra;
 
-    /** Degrees of freedom on all processes. */
+    /** Degrees of freedom on all processes, without those along z of a plane body. */
     unsigned int
     n_dofs() const;
+
+    /** Whether a degree of freedom stays at rest whatever the scene says: a plane body does not
+     * leave its plane, and an axisymmetric one does not open at its axis. */
+    bool
+    is_held_by_nature(unsigned int dof) const;
 
     void
     initialize(Vector &vector) const;
@@ -80,8 +85,8 @@ namespace Supple
 
     /**
      * The faces of boundaries that touch a node of this process, their nodes in the order that
-     * makes the normal point out of the body. @throws InputError beginning with @p origin if there
-     * is no such boundary
+     * makes the normal point out of the body; the second node of an edge stands twice. @throws
+     * InputError beginning with @p origin if there is no such boundary
      */
     std::vector<std::array<unsigned int, 3>>
     boundary_faces(const std::vector<unsigned int> &boundary_ids, const std::string &origin) const;

@@ -52,6 +52,14 @@ namespace Supple
     void
     print_mesh_details() const;
 
+    /** Which rigid motions of the body are free. */
+    std::string
+    free_rigid_motions() const;
+
+    /** Of a plane body, to begin the description of its model with. */
+    std::string
+    section_in_words() const;
+
     /** What the user should know, in sentences. */
     std::vector<std::string>
     warnings() const;
