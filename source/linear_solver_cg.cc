@@ -122,6 +122,12 @@ namespace Supple
         make_pattern();
       }
 
+      /** ML looks at the matrix once more when it goes. */
+      ~MultigridSolver() override
+      {
+        preconditioner.clear();
+      }
+
       std::string
       name() const override
       {
