@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <sstream>
 
 namespace Supple
 {
@@ -175,7 +176,7 @@ namespace Supple
     auto index       = numbers_in(argument("vertex"));
     const auto point = numbers_in(argument("nearest to"));
     if (point.size() == 3)
-      index = {double(nearest_vertex({point[0], point[1], point[2]}).first)};
+      index = {double(vertex_of_body({point[0], point[1], point[2]}, origin))};
     if (index.size() != 1)
       throw InputError(
         origin +
@@ -191,6 +192,24 @@ namespace Supple
       throw InputError(origin + ": the body has no such vertex; the indices go from 0 to " +
                        std::to_string(mesh.report.piece.size() - 1) + ".");
     return nodes;
+  }
+
+
+  unsigned int
+  Body::vertex_of_body(const Point<3> &point, const std::string &origin) const
+  {
+    const auto [vertex, distance] = nearest_vertex(point);
+    const auto corners            = mesh.bounding_box.get_boundary_points();
+    for (unsigned int d = 0; d < 3; ++d)
+      if (std::max(corners.first[d] - point[d], point[d] - corners.second[d]) >
+          0.02 * mesh.diameter())
+        {
+          std::ostringstream text;
+          text << origin << ": this point is outside the body, which lies in " << mesh.extent()
+               << " m; its nearest vertex is " << distance << " m away.";
+          throw InputError(text.str());
+        }
+    return vertex;
   }
 
 

@@ -397,7 +397,7 @@ namespace Supple
         history,
         "none",
         Range::one_of("true|false"),
-        "Whether history.csv and probes.csv are written.");
+        "Whether history.csv, probes.csv and profiles are written.");
     prm.leave_subsection();
   }
 
@@ -426,6 +426,26 @@ namespace Supple
                       "name: expression of x, "
                       "y, z, set apart by semicolons.",
                       any);
+    prm.add_parameter("Profiles",
+                      profiles,
+                      "Named boundaries whose shape is written, such as skin: 3, into "
+                      "profile_skin.csv: for each vertex its distance from the center below, its "
+                      "depth -uy, and its deformed position. Unit: none. Range: name: boundary id, "
+                      "set apart by semicolons.",
+                      any);
+    add(prm,
+        "Profile center",
+        profile_center,
+        "m",
+        RangeList::three(Range::finite()),
+        "Where the needle is: distances in profiles are measured from there along x and z.");
+    add(prm,
+        "Profile every",
+        profile_every,
+        "steps",
+        Range::whole_number(1),
+        "Number of steps from profile to profile. The first and the last state are always "
+        "written.");
     prm.leave_subsection();
   }
 

@@ -33,12 +33,14 @@ namespace Supple
     , constraints(body, parameters)
     , loads(body, parameters)
     , probes(body, parameters)
+    , profiles(body, parameters)
     , implicit_operator(body, constraints, parameters, effort)
     , solver(LinearSolver::create(implicit_operator, parameters, effort))
     , diagnostics(body, loads, stationary)
     , progress(parameters.time.n_steps, talks, Utilities::MPI::n_mpi_processes(communicator) > 1)
   {
-    if (stationary && constraints.n_pieces_free > 0 && constraints.n_held > 0)
+    if (stationary && constraints.n_pieces_free > 0 &&
+        constraints.n_pieces_free < mesh.report.n_pieces)
       throw InputError(
         "A static scene needs a body that is held: " + std::to_string(constraints.n_pieces_free) +
         " of its " + std::to_string(mesh.report.n_pieces) +
@@ -122,7 +124,7 @@ namespace Supple
   Simulation::warnings() const
   {
     std::vector<std::string> list = mesh.report.warnings;
-    if (constraints.n_pieces_free > 0 && constraints.n_held > 0)
+    if (constraints.n_pieces_free > 0 && constraints.n_pieces_free < mesh.report.n_pieces)
       list.push_back(std::to_string(constraints.n_pieces_free) + " of the " +
                      std::to_string(mesh.report.n_pieces) + " pieces are not held anywhere.");
     if (body.rotation == RotationMethod::gram_schmidt)
@@ -267,6 +269,10 @@ namespace Supple
           fs::create_directories(fs::path(folder) / "solution");
           for (const char *name : {"solution.pvd", "history.csv", "probes.csv", "summary.json"})
             fs::remove(fs::path(folder) / name);
+          for (const auto &entry : fs::directory_iterator(folder))
+            if (entry.path().filename().string().rfind("profile_", 0) == 0 &&
+                entry.path().extension() == ".csv")
+              fs::remove(entry.path());
           for (const auto &entry : fs::directory_iterator(fs::path(folder) / "solution"))
             if (entry.path().filename().string().rfind("frame_", 0) == 0)
               fs::remove(entry.path()); // of an earlier run
@@ -277,6 +283,7 @@ namespace Supple
             {
               history =
                 std::make_unique<CsvFile>(folder + "/history.csv", Measurement::column_names());
+              profiles.open(folder);
               if (!probes.empty())
                 probe_history =
                   std::make_unique<CsvFile>(folder + "/probes.csv", probes.column_names());
@@ -391,6 +398,8 @@ namespace Supple
         if (probe_history)
           probe_history->write_row(row);
       }
+    if (parameters.output.history)
+      profiles.write(step, now.time, state.block(0), false);
     if (frames && frames->due(state, now))
       frames->write(state, now);
   }
@@ -399,6 +408,8 @@ namespace Supple
   void
   Simulation::finish(const std::string &status)
   {
+    if (parameters.output.history)
+      profiles.write(step, now.time, state.block(0), true);
     if (frames)
       {
         const PhaseTimer timer(effort, Phase::output);

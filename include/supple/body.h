@@ -97,6 +97,11 @@ namespace Supple
     region_nodes(const std::string &expression, const std::string &origin) const;
 
   private:
+    /** nearest_vertex() of a point that is not far from the body. @throws InputError beginning with
+     * @p origin if it is */
+    unsigned int
+    vertex_of_body(const dealii::Point<3> &point, const std::string &origin) const;
+
     /** @throws InputError beginning with @p origin */
     void
     require_boundary(unsigned int boundary_id, const std::string &origin) const;

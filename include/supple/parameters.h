@@ -280,6 +280,9 @@ namespace Supple
     std::string points;
     std::string boundaries;
     std::string regions;
+    std::string profiles;
+    dealii::Point<3> profile_center{0., 0., 0.};
+    unsigned int profile_every = 1;
 
     void
     declare(dealii::ParameterHandler &prm);
@@ -353,6 +356,11 @@ namespace Supple
   /** A run of "name: text; name: text" taken apart, in its order. @throws InputError */
   std::vector<std::pair<std::string, std::string>>
   named_list(const std::string &text, const std::string &origin);
+
+
+  /** The boundary id that is the whole of a text. @throws InputError beginning with @p origin */
+  unsigned int
+  boundary_id(const std::string &text, const std::string &origin);
 } // namespace Supple
 
 #endif

@@ -4,6 +4,7 @@
 #include <supple/diagnostics.h>
 #include <supple/frames.h>
 #include <supple/probes.h>
+#include <supple/profiles.h>
 #include <supple/progress.h>
 #include <supple/tables.h>
 #include <supple/time_integrator.h>
@@ -101,6 +102,7 @@ namespace Supple
     const Constraints constraints;
     const Loads loads;
     const Probes probes;
+    Profiles profiles;
     ImplicitOperator implicit_operator;
     std::unique_ptr<LinearSolver> solver;
     State state;
