@@ -139,8 +139,9 @@ def draw(instants, arguments):
         view.SetActiveCamera(camera)
         window.AddRenderer(view)
         if i == 0:
-            camera.SetViewUp(0, 0, 1)
-            camera.SetPosition(*arguments.camera)
+            flat = box[4] == box[5]
+            camera.SetViewUp(0, flat, not flat)
+            camera.SetPosition(*(arguments.camera or ((0, 0, 1) if flat else (-1.2, -0.7, 0.6))))
             camera.SetFocalPoint(0, 0, 0)
             view.ResetCamera(box)
             camera.Zoom(arguments.zoom)
@@ -171,7 +172,7 @@ def main():
     parser.add_argument("--times", type=float, nargs="+", help="instants [s]; the nearest frames are taken")
     parser.add_argument("--field", default="von_mises_stress", help="what colours the body")
     parser.add_argument("--title", help="title of the colours")
-    parser.add_argument("--camera", type=float, nargs=3, default=(-1.2, -0.7, 0.6), help="direction to look from")
+    parser.add_argument("--camera", type=float, nargs=3, help="direction to look from")
     parser.add_argument("--zoom", type=float, default=1.0)
     parser.add_argument("--width", type=int, default=1500)
     parser.add_argument("--height", type=int, default=640)
