@@ -115,10 +115,13 @@ def caption(text, x, y):
     return actor
 
 
-def directions(arguments):
-    """To the right, upwards, and towards the camera."""
-    towards = numpy.array(arguments.camera) / numpy.linalg.norm(arguments.camera)
-    right = numpy.cross(arguments.up, towards)
+def directions(grid, arguments):
+    """To the right, upwards, and towards the camera; plane bodies are seen from the front."""
+    low, high = grid.GetBounds()[4:]
+    flat = low == high
+    towards = numpy.array(arguments.camera or ((0, 0, 1) if flat else (-1.2, -0.7, 0.6)))
+    towards = towards / numpy.linalg.norm(towards)
+    right = numpy.cross(arguments.up or ((0, 1, 0) if flat else (0, 0, 1)), towards)
     right /= numpy.linalg.norm(right)
     return right, numpy.cross(towards, right), towards
 
@@ -204,7 +207,7 @@ def draw(runs, arguments):
     colours, title = colour(every, arguments)
     for grid in every:
         enlarge(grid, arguments.enlarge)
-    camera, height = frame(every, directions(arguments), arguments.width / shape[1])
+    camera, height = frame(every, directions(every[0], arguments), arguments.width / shape[1])
 
     window = vtk.vtkRenderWindow()
     window.SetOffScreenRendering(1)
@@ -244,8 +247,8 @@ def main():
     parser.add_argument("--range", type=float, nargs=2, help="where the colours begin and end")
     parser.add_argument("--title", help="title of the colours, without the unit")
     parser.add_argument("--outline", choices=("edges", "silhouette"), default="edges", help="of the body at rest")
-    parser.add_argument("--camera", type=float, nargs=3, default=(-1.2, -0.7, 0.6), help="direction to look from")
-    parser.add_argument("--up", type=float, nargs=3, default=(0, 0, 1), help="direction that is upwards in the picture")
+    parser.add_argument("--camera", type=float, nargs=3, help="direction to look from")
+    parser.add_argument("--up", type=float, nargs=3, help="direction that is upwards in the picture")
     parser.add_argument("--width", type=int, default=1200, help="of the picture in pixels")
     arguments = parser.parse_args()
 

@@ -85,7 +85,7 @@ namespace Supple
   {
     contraction = 1.; // nothing is known of what was
     stage_time  = -1.;
-    scratch = state.block(0);
+    scratch     = state.block(0);
     model.constraints.set_zero(scratch);
     copy_out(y, scratch);
     scratch = state.block(1);

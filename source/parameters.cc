@@ -1,10 +1,9 @@
 #include <supple/parameters.h>
 
+#include <supple/entries.h>
 #include <supple/error.h>
 #include <supple/expression.h>
-#include <supple/patterns.h>
 
-#include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
 #include <regex>
@@ -13,176 +12,7 @@ namespace Supple
 {
   using dealii::ParameterHandler;
   namespace Patterns = dealii::Patterns;
-
-  namespace
-  {
-    const double infinity = std::numeric_limits<double>::infinity();
-
-    std::string
-    full_documentation(const std::string &meaning,
-                       const std::string &unit,
-                       const Patterns::PatternBase &pattern)
-    {
-      return meaning + " Unit: " + unit +
-             ". Range: " + pattern.description(Patterns::PatternBase::Text) + ".";
-    }
-
-
-    /** Declares an entry, bound to @p variable, whose documentation tells its unit and range too.
-     */
-    template <class T>
-    void
-    add(ParameterHandler &prm,
-        const std::string &entry,
-        T &variable,
-        const std::string &unit,
-        const Patterns::PatternBase &pattern,
-        const std::string &meaning)
-    {
-      prm.add_parameter(entry, variable, full_documentation(meaning, unit, pattern), pattern);
-    }
-
-
-    /** The same for a choice between names. */
-    template <class Enum>
-    void
-    add_choice(ParameterHandler &prm,
-               const std::string &entry,
-               Enum &variable,
-               const std::vector<std::pair<std::string, Enum>> &choices,
-               const std::string &meaning)
-    {
-      std::string names, preset;
-      for (const auto &[name, value] : choices)
-        {
-          names += (names.empty() ? "" : "|") + name;
-          if (value == variable)
-            preset = name;
-        }
-      const Range pattern = Range::one_of(names);
-      prm.declare_entry(entry, preset, pattern, full_documentation(meaning, "none", pattern));
-      prm.add_action(entry, [&variable, choices](const std::string &chosen) {
-        for (const auto &[name, value] : choices)
-          if (name == chosen)
-            variable = value;
-      });
-    }
-  } // namespace
-
-
-  void
-  MeshParameters::declare_cylinder(ParameterHandler &prm)
-  {
-    const Range positive = Range::between(0, infinity);
-    add(prm, "Cylinder inner radius", inner_radius, "m", positive, "Radius of the cavity.");
-    add(prm, "Cylinder outer radius", outer_radius, "m", positive, "Radius of the outer wall.");
-    add(prm, "Cylinder height", height, "m", positive, "Length along z; the middle is at z = 0.");
-    add(prm,
-        "Cylinder sectors",
-        sectors,
-        "none",
-        Range::whole_number(3),
-        "Number of vertices on each circle.");
-    add(
-      prm,
-      "Cylinder rings",
-      rings,
-      "none",
-      Range::whole_number(2),
-      "Number of cross sections with vertices, both ends included. Boundary ids: 0 (inner wall), 1 "
-      "(outer wall), 2 (bottom), 3 (top).");
-    add(prm,
-        "Cylinder layers",
-        layers,
-        "none",
-        Range::whole_number(1),
-        "Number of layers of cells through the wall.");
-  }
-
-
-  void
-  MeshParameters::declare(ParameterHandler &prm)
-  {
-    const Range positive = Range::between(0, infinity);
-    prm.enter_subsection("Mesh");
-    add_choice(prm,
-               "Shape",
-               shape,
-               {{"box", Shape::box},
-                {"hollow cylinder", Shape::hollow_cylinder},
-                {"file", Shape::file}},
-               "The body: a box, a hollow cylinder about the z axis, or what a mesh file holds.");
-    add(prm,
-        "Box origin",
-        origin,
-        "m",
-        RangeList::three(Range::finite()),
-        "Corner of the box with the smallest coordinates.");
-    add(prm,
-        "Box size",
-        size,
-        "m",
-        RangeList::three(positive),
-        "Lengths of the box along x, y and z.");
-    add(
-      prm,
-      "Box cubes",
-      cubes,
-      "none",
-      RangeList::three(Range::whole_number(1)),
-      "Number of cubes along x, y and z; each is cut into six tetrahedra along its diagonal from "
-      "the "
-      "smallest to the largest coordinates. The faces of the box have the boundary ids 0 (smallest "
-      "x), 1 (largest x), 2, 3 (y), 4, 5 (z).");
-    declare_cylinder(prm);
-    add(prm,
-        "File",
-        file,
-        "none",
-        dealii::Patterns::Anything(),
-        "Mesh file (.msh, .vtk, .unv, .mesh, .bdf), relative to the folder of the scene. Physical "
-        "volumes "
-        "become material ids and physical surfaces boundary ids.");
-    add(prm,
-        "Scale",
-        scale,
-        "m per unit of the file",
-        positive,
-        "All coordinates of a file times this.");
-    prm.add_parameter(
-      "Boundary regions",
-      boundary_regions,
-      "Boundary ids by place, such as 7: z < 0.1; 8: z > 2. A face of the surface whose vertices "
-      "all satisfy the expression gets the id, whatever it had before. Unit: m. Range: id: "
-      "expression of x, y, z, set apart by semicolons.",
-      dealii::Patterns::Anything());
-    prm.leave_subsection();
-  }
-
-
-  void
-  MeshParameters::check(const Parameters &parameters) const
-  {
-    const double n_cubes = double(cubes[0]) * cubes[1] * cubes[2];
-    if (shape == Shape::box && n_cubes > 2e7)
-      throw InputError(parameters.origin("Mesh/Box cubes") + ": there can be 2e7 cubes at most.");
-    const double n_wedges = double(sectors) * rings * layers;
-    if (shape == Shape::hollow_cylinder && n_wedges > 2e7)
-      throw InputError(parameters.origin("Mesh/Cylinder rings") +
-                       ": there can be 2e7 vertices at most.");
-    if (shape == Shape::hollow_cylinder && inner_radius >= outer_radius)
-      throw InputError(parameters.origin("Mesh/Cylinder inner radius") +
-                       ": it must be smaller than the outer radius.");
-    if (shape == Shape::hollow_cylinder &&
-        inner_radius > outer_radius * std::cos(dealii::numbers::PI / sectors))
-      throw InputError(
-        parameters.origin("Mesh/Cylinder sectors") +
-        ": so few that the straight edges of the outer wall would cut through the inner one. "
-        "Take more sectors or a thicker wall.");
-    if (shape == Shape::file && file.empty())
-      throw InputError(parameters.origin("Mesh/File") + ": Shape = file needs a mesh file.");
-  }
-
+  using namespace Entries;
 
   void
   MaterialParameters::declare(ParameterHandler &prm)
@@ -735,7 +565,7 @@ namespace Supple
         history,
         "none",
         Range::one_of("true|false"),
-        "Whether history.csv and probes.csv are written.");
+        "Whether history.csv, probes.csv and profiles are written.");
     prm.leave_subsection();
   }
 
@@ -764,6 +594,26 @@ namespace Supple
                       "name: expression of x, "
                       "y, z, set apart by semicolons.",
                       any);
+    prm.add_parameter("Profiles",
+                      profiles,
+                      "Named boundaries whose shape is written, such as skin: 3, into "
+                      "profile_skin.csv: for each vertex its distance from the center below, its "
+                      "depth -uy, and its deformed position. Unit: none. Range: name: boundary id, "
+                      "set apart by semicolons.",
+                      any);
+    add(prm,
+        "Profile center",
+        profile_center,
+        "m",
+        RangeList::three(Range::finite()),
+        "Where the needle is: distances in profiles are measured from there along x and z.");
+    add(prm,
+        "Profile every",
+        profile_every,
+        "steps",
+        Range::whole_number(1),
+        "Number of steps from profile to profile. The first and the last state are always "
+        "written.");
     prm.leave_subsection();
   }
 
@@ -819,6 +669,7 @@ namespace Supple
   Parameters::declare(ParameterHandler &prm)
   {
     mesh.declare(prm);
+    plane.declare(prm);
     material.declare(prm);
     corotation.declare(prm);
     damping.declare(prm);
@@ -873,6 +724,7 @@ namespace Supple
 
     mesh.check(*this);
     time.check(*this);
+    plane.check(*this);
     if (time.problem == TimeParameters::Problem::stationary && damping.any())
       throw InputError(origin("Time/Problem") +
                        ": a static problem knows no velocity; take the damping out of the scene.");

@@ -35,27 +35,37 @@ namespace Supple
     , constraints(body, parameters)
     , loads(body, parameters)
     , probes(body, parameters)
+    , profiles(body, parameters)
     , implicit_operator(body, constraints, parameters, effort)
     , solver(LinearSolver::create(implicit_operator, parameters, effort))
     , diagnostics(body, loads, stationary)
     , progress(talks, Utilities::MPI::n_mpi_processes(communicator) > 1)
     , checkpoint(body, parameters, folder)
   {
-    if (stationary && constraints.n_pieces_free > 0 && constraints.n_held > 0)
+    if (stationary && constraints.n_pieces_free > 0 &&
+        constraints.n_pieces_free < mesh.report.n_pieces)
       throw InputError(
         "A static scene needs a body that is held: " + std::to_string(constraints.n_pieces_free) +
         " of its " + std::to_string(mesh.report.n_pieces) +
         " pieces, which do not hang together, are not held anywhere.");
     if (stationary && constraints.n_free_rigid_motions > 0)
-      throw InputError("A static scene needs a body that is held: " +
-                       std::to_string(constraints.n_free_rigid_motions) +
-                       " of its six rigid motions are free, so that the stiffness is singular. "
-                       "Hold a boundary or a "
-                       "region (subsection Constraints), or make the problem dynamic.");
+      throw InputError("A static scene needs a body that is held: " + free_rigid_motions() +
+                       ", so that the stiffness is singular. Hold a boundary or a region "
+                       "(subsection Constraints), or make the problem dynamic.");
     create_initial_state();
     integrator         = TimeIntegrator::create(model(), state.block(0));
     start_displacement = state.block(0);
     setup_seconds      = seconds_since_start();
+  }
+
+
+  std::string
+  Simulation::free_rigid_motions() const
+  {
+    if (constraints.n_rigid_motions == 1)
+      return "its one rigid motion, along its axis, is free";
+    return std::to_string(constraints.n_free_rigid_motions) + " of its " +
+           (constraints.n_rigid_motions == 6 ? "six" : "three") + " rigid motions are free";
   }
 
 
@@ -124,7 +134,7 @@ namespace Supple
   Simulation::warnings() const
   {
     std::vector<std::string> list = mesh.report.warnings;
-    if (constraints.n_pieces_free > 0 && constraints.n_held > 0)
+    if (constraints.n_pieces_free > 0 && constraints.n_pieces_free < mesh.report.n_pieces)
       list.push_back(std::to_string(constraints.n_pieces_free) + " of the " +
                      std::to_string(mesh.report.n_pieces) + " pieces are not held anywhere.");
     if (body.rotation == RotationMethod::gram_schmidt)
@@ -139,11 +149,12 @@ namespace Supple
     double poisson = 0.;
     for (const auto &[id, n_cells] : mesh.materials)
       poisson = std::max(poisson, body.material(id).poisson());
-    if (poisson > 0.45)
+    if (poisson > 0.45 && mesh.section.geometry != Geometry::plane_stress)
       {
         std::ostringstream text;
-        text << "Linear tetrahedra are too stiff (they lock) at a Poisson ratio above 0.45; it is "
-             << poisson << ".";
+        text << "Linear " << mesh.cell_name()
+             << " are too stiff (they lock) at a Poisson ratio above 0.45; it is " << poisson
+             << ".";
         list.push_back(text.str());
       }
     return list;
@@ -203,6 +214,25 @@ namespace Supple
   }
 
 
+  std::string
+  Simulation::section_in_words() const
+  {
+    std::ostringstream thickness;
+    thickness << mesh.section.thickness << " m thick, ";
+    switch (mesh.section.geometry)
+      {
+        case Geometry::plane_strain:
+          return "plane strain, " + thickness.str();
+        case Geometry::plane_stress:
+          return "plane stress, " + thickness.str();
+        case Geometry::axisymmetric:
+          return "axisymmetric, ";
+        default:
+          return "";
+      }
+  }
+
+
   void
   Simulation::print_description(const bool in_detail) const
   {
@@ -224,16 +254,16 @@ namespace Supple
 
     std::cout << "Supple " << SUPPLE_VERSION << ", scene " << parameters.scene_name << '\n';
     line("body",
-         std::to_string(mesh.n_cells) + " tetrahedra, " + std::to_string(mesh.n_vertices) +
-           " vertices in " + mesh.extent() + " m, " + volume.str() + " m^3");
+         std::to_string(mesh.n_cells) + " " + mesh.cell_name() + ", " +
+           std::to_string(mesh.n_vertices) + " vertices in " + mesh.extent() + " m, " +
+           volume.str() + " m^3");
     if (in_detail)
       print_mesh_details();
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     line("unknowns",
-         std::to_string(body.dof_handler.n_dofs()) + ", of which " +
-           std::to_string(constraints.n_held) + " are held; " +
-           (n_ranks == 1 ? "1 process" : std::to_string(n_ranks) + " processes"));
-    line("model", rotations[static_cast<unsigned int>(body.rotation)]);
+         std::to_string(body.n_dofs()) + ", of which " + std::to_string(constraints.n_held) +
+           " are held; " + (n_ranks == 1 ? "1 process" : std::to_string(n_ranks) + " processes"));
+    line("model", section_in_words() + rotations[static_cast<unsigned int>(body.rotation)]);
     line("time", time.str());
     line("solver", solver->name() + " (" + solver->reason + ")");
     for (const std::string &text : probes.descriptions())
@@ -290,6 +320,10 @@ namespace Supple
                              "checkpoint.cbor",
                              "checkpoint.previous.cbor"})
       fs::remove(fs::path(folder) / name);
+    for (const auto &entry : fs::directory_iterator(folder))
+      if (entry.path().filename().string().rfind("profile_", 0) == 0 &&
+          entry.path().extension() == ".csv")
+        fs::remove(entry.path());
     for (const auto &entry : fs::directory_iterator(fs::path(folder) / "solution"))
       if (entry.path().filename().string().rfind("frame_", 0) == 0)
         fs::remove(entry.path()); // of an earlier run
@@ -304,6 +338,7 @@ namespace Supple
       return resumed ? std::make_unique<CsvFile>(file, step + 1)
                      : std::make_unique<CsvFile>(file, columns);
     };
+    profiles.open(folder, resumed);
     history = open("history.csv", Measurement::column_names());
     if (!probes.empty())
       probe_history = open("probes.csv", probes.column_names());
@@ -343,6 +378,7 @@ namespace Supple
       diagnostics.load(saved->at("diagnostics"));
     if (frames)
       frames->load(saved->at("frames"));
+    profiles.load(saved->at("profiles"));
   }
 
 
@@ -355,7 +391,8 @@ namespace Supple
                            {"error_estimate", error_estimate},
                            {"largest_motion", largest_motion},
                            {"seconds", seconds_of_run()},
-                           {"integrator", integrator->save()}};
+                           {"integrator", integrator->save()},
+                           {"profiles", profiles.save()}};
     if (writes)
       rest["diagnostics"] = diagnostics.save();
     if (frames)
@@ -457,6 +494,8 @@ namespace Supple
         if (probe_history)
           probe_history->write_row(row);
       }
+    if (parameters.output.history)
+      profiles.write(step, now.time, state.block(0), false);
     if (frames && frames->due(state, now))
       frames->write(state, now);
   }
@@ -465,6 +504,8 @@ namespace Supple
   void
   Simulation::finish(const std::string &status)
   {
+    if (parameters.output.history)
+      profiles.write(step, now.time, state.block(0), true);
     if (frames)
       {
         const PhaseTimer timer(effort, Phase::output);

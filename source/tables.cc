@@ -52,12 +52,22 @@ namespace Supple
   void
   CsvFile::write_row(const std::vector<double> &values)
   {
-    std::ostringstream row; // the row goes to the disk in one piece
-    row.precision(15);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      row << (i == 0 ? "" : ",") << values[i];
-    row << '\n';
-    stream << row.str() << std::flush;
+    write_rows({values});
+  }
+
+
+  void
+  CsvFile::write_rows(const std::vector<std::vector<double>> &rows)
+  {
+    std::ostringstream text; // the rows go to the disk in one piece
+    text.precision(15);
+    for (const std::vector<double> &row : rows)
+      {
+        for (std::size_t i = 0; i < row.size(); ++i)
+          text << (i == 0 ? "" : ",") << row[i];
+        text << '\n';
+      }
+    stream << text.str() << std::flush;
     if (!stream)
       throw WriteError(file + " can't be written any more; is the disk full?");
   }

@@ -39,7 +39,7 @@ namespace Supple
     for (std::size_t b = 0; b < batches.size(); ++b)
       {
         const Batch &batch          = batches[b];
-        const Matrix3<Pack> S       = rotated_back(b, deformation_gradient(batch, displacement));
+        const Matrix3<Pack> S       = rotated_back(b, deformation_gradient(b, displacement));
         const SymmetricEigen eigen  = symmetric_eigen(S);
         const Matrix3<Pack> rotated = rotations[b] * eigen.vectors;
         const Pack c                = 2. * batch.mu - batch.lambda * (trace(S) - 3.);

@@ -105,8 +105,9 @@ namespace Supple
     }
 
 
-    inline dealii::IndexSet
-    locally_relevant_dofs(const dealii::DoFHandler<3> &dof_handler)
+    template <int dim, int spacedim>
+    dealii::IndexSet
+    locally_relevant_dofs(const dealii::DoFHandler<dim, spacedim> &dof_handler)
     {
 #if DEAL_II_VERSION_GTE(9, 6, 0)
       return dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);

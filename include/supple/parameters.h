@@ -3,6 +3,7 @@
 
 #include <supple/material.h>
 #include <supple/rotation.h>
+#include <supple/section.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
@@ -23,7 +24,16 @@ namespace Supple
     {
       box,
       hollow_cylinder,
+      rectangle,
       file
+    };
+
+    /** How the squares of a rectangle are cut in two. */
+    enum class Split
+    {
+      falling,
+      rising,
+      alternating
     };
 
     Shape shape = Shape::box;
@@ -39,6 +49,13 @@ namespace Supple
     unsigned int rings   = 6;
     unsigned int layers  = 1;
 
+    dealii::Point<2> rectangle_origin{0., 0.};
+    dealii::Point<2> rectangle_size{1., 1.};
+    std::array<unsigned int, 2> squares{{8, 8}};
+    Split split = Split::falling;
+
+    std::vector<double> material_layers; ///< thicknesses from the top (largest y) downward [m]
+
     std::string file; ///< as written; relative to the folder of the scene
     double scale = 1.;
     std::string boundary_regions;
@@ -49,9 +66,43 @@ namespace Supple
     void
     check(const Parameters &parameters) const;
 
+    /** The material id of each row of cubes or squares along y, from the bottom. */
+    std::vector<unsigned int>
+    material_of_rows() const;
+
   private:
     void
     declare_cylinder(dealii::ParameterHandler &prm);
+
+    void
+    declare_rectangle(dealii::ParameterHandler &prm);
+
+    void
+    declare_file(dealii::ParameterHandler &prm);
+
+    void
+    check_cylinder(const Parameters &parameters) const;
+
+    void
+    check_layers(const Parameters &parameters) const;
+
+    /** Of a box or a rectangle along y, and how many cubes or squares it has there. */
+    std::pair<double, unsigned int>
+    height_and_rows() const;
+  };
+
+
+  /** What is in front of and behind a body of triangles. */
+  struct PlaneParameters
+  {
+    Section section{Geometry::plane_strain, 1.};
+
+    void
+    declare(dealii::ParameterHandler &prm);
+
+    /** @throws InputError for a thickness that would count for nothing */
+    void
+    check(const Parameters &parameters) const;
   };
 
 
@@ -292,6 +343,9 @@ namespace Supple
     std::string points;
     std::string boundaries;
     std::string regions;
+    std::string profiles;
+    dealii::Point<3> profile_center{0., 0., 0.};
+    unsigned int profile_every = 1;
 
     void
     declare(dealii::ParameterHandler &prm);
@@ -322,6 +376,7 @@ namespace Supple
   struct Parameters
   {
     MeshParameters mesh;
+    PlaneParameters plane;
     MaterialParameters material;
     CorotationParameters corotation;
     DampingParameters damping;
@@ -382,6 +437,11 @@ namespace Supple
   /** A run of "name: text; name: text" taken apart, in its order. @throws InputError */
   std::vector<std::pair<std::string, std::string>>
   named_list(const std::string &text, const std::string &origin);
+
+
+  /** The boundary id that is the whole of a text. @throws InputError beginning with @p origin */
+  unsigned int
+  boundary_id(const std::string &text, const std::string &origin);
 } // namespace Supple
 
 #endif

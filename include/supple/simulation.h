@@ -5,6 +5,7 @@
 #include <supple/diagnostics.h>
 #include <supple/frames.h>
 #include <supple/probes.h>
+#include <supple/profiles.h>
 #include <supple/progress.h>
 #include <supple/tables.h>
 #include <supple/time_integrator.h>
@@ -52,6 +53,14 @@ namespace Supple
 
     void
     print_mesh_details() const;
+
+    /** Which rigid motions of the body are free. */
+    std::string
+    free_rigid_motions() const;
+
+    /** Of a plane body, to begin the description of its model with. */
+    std::string
+    section_in_words() const;
 
     /** What the user should know, in sentences. */
     std::vector<std::string>
@@ -113,6 +122,7 @@ namespace Supple
     const Constraints constraints;
     const Loads loads;
     const Probes probes;
+    Profiles profiles;
     ImplicitOperator implicit_operator;
     std::unique_ptr<LinearSolver> solver;
     State state;

@@ -22,6 +22,10 @@ namespace Supple
     void
     write_row(const std::vector<double> &values);
 
+    /** All at once. @throws WriteError if the disk is full */
+    void
+    write_rows(const std::vector<std::vector<double>> &rows);
+
   private:
     const std::string file;
     std::ofstream stream;
