@@ -22,7 +22,7 @@ namespace Supple
     constexpr Limits changing_operator = {4000, 4000};
     constexpr Limits constant_operator = {1500, 150000};
 
-    // In the plane factors stay thin: CHOLMOD takes 1.1 s at 161202 unknowns, multigrid 4.1 s
+    // In the plane factors stay thin: CHOLMOD takes 1.3 s at 161202 unknowns, multigrid 4.1 s
     // (parameters/skin/needle-plane.prm, finer).
     constexpr Limits changing_operator_in_plane = {5000, 300000};
     constexpr Limits constant_operator_in_plane = {1500, 300000};
