@@ -1,67 +1,70 @@
-"""Draws instants of a run side by side, from the VTU files that solution.pvd names."""
+"""Draws instants of a run, from the VTU files that solution.pvd names, beside or below each other, and another run with it.
+
+    scripts/render.sh OUTPUT_FOLDER PICTURE.png [--times 0 0.14 7] [--below OTHER_OUTPUT_FOLDER] [further options]
+
+The bodies are drawn in parallel projection and fill their views; the picture is as high as it must be. Two runs have the
+same scale and colours. The field that colours them may be a component (displacement_2); of a vector, else, its length.
+"""
 
 import argparse
 import pathlib
-import xml.etree.ElementTree
 
+import numpy
 import vtk
+from PIL import Image
+from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+
+from frames import at_rest, enlarge, places, read_frames, read_grid, values
+
+UNITS = {"displacement": "m", "velocity": "m/s", "von_mises_stress": "Pa"}
+PREFIXES = [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "µ")]
+MARGIN, HEAD, FOOT = 0.04, 44, 68    # empty part of a view's width; pixels above a body, and of the colour bar
+TEXT_SIZE = 24
 
 
-def read_frames(folder):
-    """(time, file) of each frame."""
-    record = xml.etree.ElementTree.parse(folder / "solution.pvd")
-    return [(float(entry.get("timestep")), folder / entry.get("file")) for entry in record.iter("DataSet")]
+def unit(field, largest):
+    """How often the field's unit with a prefix holds that without, and what it is called; both for the colour bar."""
+    symbol = UNITS.get(field) or UNITS.get(field.rpartition("_")[0])
+    if symbol is None or largest == 0:
+        return 1, symbol
+    return next(((size, prefix + symbol) for size, prefix in PREFIXES if largest >= size), (1, symbol))
 
 
-def read_grid(file):
-    parallel = file.suffix == ".pvtu"
-    reader = vtk.vtkXMLPUnstructuredGridReader() if parallel else vtk.vtkXMLUnstructuredGridReader()
-    reader.SetFileName(str(file))
-    reader.Update()
-    return reader.GetOutput()
-
-
-def at_rest(grid):
-    """The same cells where they were before they moved."""
-    points = vtk.vtkPoints()
-    displacement = grid.GetPointData().GetArray("displacement")
-    for i in range(grid.GetNumberOfPoints()):
-        points.InsertNextPoint([x - u for x, u in zip(grid.GetPoint(i), displacement.GetTuple(i))])
-    rest = vtk.vtkUnstructuredGrid()
-    rest.DeepCopy(grid)
-    rest.SetPoints(points)
-    return rest
-
-
-def body_actor(grid, field, colours):
+def body_actor(grid, colours):
     mapper = vtk.vtkDataSetMapper()
     mapper.SetInputData(grid)
     mapper.SetScalarModeToUsePointFieldData()
-    mapper.SelectColorArray(field)
+    mapper.SelectColorArray("colour")
+    mapper.InterpolateScalarsBeforeMappingOn()
     mapper.SetLookupTable(colours)
-    mapper.SetScalarRange(colours.GetRange())
+    mapper.UseLookupTableScalarRangeOn()
     actor = vtk.vtkActor()
     actor.SetMapper(mapper)
-    actor.GetProperty().EdgeVisibilityOn()
-    actor.GetProperty().SetEdgeColor(0.25, 0.25, 0.3)
-    actor.GetProperty().SetLineWidth(1.2)
-    actor.GetProperty().SetInterpolationToFlat()
-    actor.GetProperty().SetAmbient(0.6)
-    actor.GetProperty().SetDiffuse(0.5)
+    look = actor.GetProperty()
+    look.EdgeVisibilityOn()
+    look.SetEdgeColor(0.25, 0.25, 0.3)
+    look.SetLineWidth(1.0)
+    look.SetInterpolationToFlat()
+    look.SetAmbient(0.74)
+    look.SetDiffuse(0.34)
     return actor
 
 
-def ghost_actor(grid):
-    """Outline of the body at rest."""
+def ghost_actor(grid, camera):
+    """Outline of the body at rest: its sharp edges, or, where a camera is given, its silhouette from there."""
     surface = vtk.vtkGeometryFilter()
     surface.SetInputData(at_rest(grid))
-    merged = vtk.vtkCleanPolyData()
-    merged.SetInputConnection(surface.GetOutputPort())
-    edges = vtk.vtkFeatureEdges()
-    edges.SetInputConnection(merged.GetOutputPort())
-    edges.SetFeatureAngle(60)
-    edges.NonManifoldEdgesOff()
-    edges.ColoringOff()
+    if camera is None:
+        edges = vtk.vtkFeatureEdges()
+        edges.SetFeatureAngle(60)
+        edges.NonManifoldEdgesOff()
+        edges.ColoringOff()
+    else:
+        edges = vtk.vtkPolyDataSilhouette()
+        edges.SetCamera(camera)
+        edges.SetDirectionToCameraVector()
+        edges.SetEnableFeatureAngle(0)
+    edges.SetInputConnection(surface.GetOutputPort())
     mapper = vtk.vtkPolyDataMapper()
     mapper.SetInputConnection(edges.GetOutputPort())
     mapper.ScalarVisibilityOff()
@@ -80,109 +83,181 @@ def colour_map(low, high):
     return function
 
 
-def colour_bar(colours, title):
+def dark(text):
+    text.SetColor(0.1, 0.1, 0.1)
+    text.ItalicOff()
+    text.ShadowOff()
+    text.BoldOff()
+
+
+def colour_bar(colours):
     bar = vtk.vtkScalarBarActor()
     bar.SetLookupTable(colours)
-    bar.SetTitle(title)
     bar.SetNumberOfLabels(5)
+    bar.SetMaximumNumberOfColors(256)
     bar.SetOrientationToHorizontal()
-    bar.SetPosition(0.3, 0.02)
-    bar.SetWidth(0.4)
-    bar.SetHeight(0.11)
+    bar.SetPosition(0.36, 0.08)
+    bar.SetWidth(0.6)
+    bar.SetHeight(0.84)
     bar.SetLabelFormat("%.3g")
-    for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
-        text.SetColor(0.1, 0.1, 0.1)
-        text.ItalicOff()
-        text.ShadowOff()
-        text.BoldOff()
+    bar.UnconstrainedFontSizeOn()
+    bar.GetLabelTextProperty().SetFontSize(TEXT_SIZE - 4)
+    dark(bar.GetLabelTextProperty())
     return bar
 
 
-def caption(text):
+def caption(text, x, y):
     actor = vtk.vtkTextActor()
     actor.SetInput(text)
-    actor.GetTextProperty().SetFontSize(26)
-    actor.GetTextProperty().SetColor(0.1, 0.1, 0.1)
-    actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
-    actor.SetPosition(0.05, 0.92)
+    actor.GetTextProperty().SetFontSize(TEXT_SIZE)
+    dark(actor.GetTextProperty())
+    actor.SetPosition(x, y)
     return actor
 
 
-def draw(instants, arguments):
-    """One view for each instant, all with the same camera and colours."""
-    grids = [read_grid(file) for _, file in instants]
-    ranges = [grid.GetPointData().GetArray(arguments.field).GetRange() for grid in grids]
-    colours = colour_map(min(low for low, _ in ranges), max(high for _, high in ranges))
-    bounds = vtk.vtkBoundingBox()
-    for grid in grids:
-        bounds.AddBounds(grid.GetBounds())
-        bounds.AddBounds(at_rest(grid).GetBounds())
-    box = [0.0] * 6
-    bounds.GetBounds(box)
+def directions(grid, arguments):
+    """To the right, upwards, and towards the camera; plane bodies are seen from the front."""
+    low, high = grid.GetBounds()[4:]
+    flat = low == high
+    towards = numpy.array(arguments.camera or ((0, 0, 1) if flat else (-1.2, -0.7, 0.6)))
+    towards = towards / numpy.linalg.norm(towards)
+    right = numpy.cross(arguments.up or ((0, 1, 0) if flat else (0, 0, 1)), towards)
+    right /= numpy.linalg.norm(right)
+    return right, numpy.cross(towards, right), towards
+
+
+def frame(grids, axes, width):
+    """Camera that sees all bodies, as they are and at rest, in a view of this width, and the view's height in pixels."""
+    points = numpy.vstack([places(grid) for grid in grids] + [places(at_rest(grid)) for grid in grids])
+    seen = points @ numpy.transpose(axes)
+    low, high = seen.min(axis=0), seen.max(axis=0)
+    pixel = (high - low)[0] / (width * (1 - 2 * MARGIN))
+    body = (high - low)[1] / pixel
+    height = round(body + HEAD + MARGIN * width)
+    middle = (low + high) / 2
+    middle[1] = low[1] + (height / 2 - MARGIN * width / 2) * pixel    # the caption stands above the body
+    away = 2 * numpy.ptp(seen, axis=0).max()
+    camera = vtk.vtkCamera()
+    camera.ParallelProjectionOn()
+    camera.SetParallelScale(height / 2 * pixel)
+    camera.SetFocalPoint(*(middle @ axes))
+    camera.SetPosition(*(middle @ axes + away * axes[2]))
+    camera.SetViewUp(*axes[1])
+    camera.SetClippingRange(0.1 * away, 2 * away)
+    return camera, height
+
+
+def add_view(window, corners, grid, text, camera, colours, arguments):
+    """One body in a part of the window."""
+    view = vtk.vtkRenderer()
+    view.SetBackground(1, 1, 1)
+    view.SetViewport(*corners)
+    light = vtk.vtkLight()
+    light.SetLightTypeToCameraLight()
+    light.SetPosition(0.3, 0.8, 1)
+    view.AddLight(light)
+    view.AddActor(body_actor(grid, colours))
+    view.AddActor(ghost_actor(grid, camera if arguments.outline == "silhouette" else None))
+    view.AddActor(caption(text, 12, (corners[3] - corners[1]) * window.GetSize()[1] - HEAD + 8))
+    view.SetActiveCamera(camera)
+    window.AddRenderer(view)
+
+
+def add_colour_bar(window, colours, title):
+    foot = vtk.vtkRenderer()
+    foot.SetBackground(1, 1, 1)
+    foot.SetViewport(0, 0, 1, FOOT / window.GetSize()[1])
+    foot.AddActor2D(colour_bar(colours))
+    foot.AddActor2D(caption(title, 12, 14))
+    window.AddRenderer(foot)
+
+
+def write(window, file):
+    """As PNG of few colours, which are enough and make a small file."""
+    window.Render()
+    picture = vtk.vtkWindowToImageFilter()
+    picture.SetInput(window)
+    picture.ReadFrontBufferOff()
+    picture.Update()
+    image = picture.GetOutput()
+    width, height, _ = image.GetDimensions()
+    pixels = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, 3)[::-1]
+    few = Image.fromarray(pixels).quantize(256, Image.Quantize.MAXCOVERAGE, kmeans=1, dither=Image.Dither.NONE)
+    few.save(file, optimize=True)
+
+
+def colour(grids, arguments):
+    """Gives the bodies their colours; the map, and what stands at the colour bar."""
+    fields = [values(grid, arguments.field) for grid in grids]
+    low, high = arguments.range or (min(map(numpy.min, fields)), max(map(numpy.max, fields)))
+    size, symbol = unit(arguments.field, max(abs(low), abs(high)))
+    for grid, field in zip(grids, fields):
+        array = numpy_to_vtk(field / size, deep=True)
+        array.SetName("colour")
+        grid.GetPointData().AddArray(array)
+    title = arguments.title or arguments.field.replace("_", " ").replace("mises", "Mises")
+    return colour_map(low / size, high / size), title + (f" in {symbol}" if symbol else "")
+
+
+def draw(runs, arguments):
+    """A row for each run and a column for each of its instants (time, file), or, stacked, the other way round."""
+    shape = (len(runs[0]), len(runs)) if arguments.stacked else (len(runs), len(runs[0]))
+    grids = [[read_grid(file) for _, file in instants] for instants in runs]
+    every = [grid for row in grids for grid in row]
+    colours, title = colour(every, arguments)
+    for grid in every:
+        enlarge(grid, arguments.enlarge)
+    camera, height = frame(every, directions(every[0], arguments), arguments.width / shape[1])
 
     window = vtk.vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(8)
-    window.SetSize(arguments.width, arguments.height)
-    camera = vtk.vtkCamera()
-    for i, (grid, (time, _)) in enumerate(zip(grids, instants)):
-        view = vtk.vtkRenderer()
-        view.SetBackground(1, 1, 1)
-        view.SetViewport(i / len(grids), 0.12, (i + 1) / len(grids), 1)
-        light = vtk.vtkLight()
-        light.SetLightTypeToCameraLight()
-        light.SetPosition(0.3, 0.8, 1)
-        view.AddLight(light)
-        view.AddActor(body_actor(grid, arguments.field, colours))
-        view.AddActor(ghost_actor(grid))
-        view.AddActor(caption(f"t = {time:.3g} s"))
-        view.SetActiveCamera(camera)
-        window.AddRenderer(view)
-        if i == 0:
-            camera.SetViewUp(0, 0, 1)
-            camera.SetPosition(*arguments.camera)
-            camera.SetFocalPoint(0, 0, 0)
-            view.ResetCamera(box)
-            camera.Zoom(arguments.zoom)
-        view.ResetCameraClippingRange(box)
-    foot = vtk.vtkRenderer()
-    foot.SetBackground(1, 1, 1)
-    foot.SetViewport(0, 0, 1, 0.12)
-    bar = colour_bar(colours, arguments.title or arguments.field.replace("_", " "))
-    bar.SetPosition(0.3, 0.05)
-    bar.SetHeight(0.9)
-    foot.AddActor2D(bar)
-    window.AddRenderer(foot)
-    window.Render()
+    window.SetSize(arguments.width, shape[0] * height + FOOT)
+    whole = window.GetSize()[1]
+    for r, (run, instants, name) in enumerate(zip(grids, runs, arguments.names)):
+        for i, (grid, (time, _)) in enumerate(zip(run, instants)):
+            row, column = (i, r) if arguments.stacked else (r, i)
+            corners = (column / shape[1], 1 - (row + 1) * height / whole, (column + 1) / shape[1], 1 - row * height / whole)
+            instant = arguments.instants[i] if arguments.instants else f"t = {time:.3g} s"
+            text = f"{name}, {instant}" if name else instant
+            add_view(window, corners, grid, text, camera, colours, arguments)
+    add_colour_bar(window, colours, title)
+    write(window, arguments.picture)
 
-    picture = vtk.vtkWindowToImageFilter()
-    picture.SetInput(window)
-    picture.ReadFrontBufferOff()
-    writer = vtk.vtkPNGWriter()
-    writer.SetFileName(arguments.picture)
-    writer.SetInputConnection(picture.GetOutputPort())
-    writer.Write()
+
+def choose(folder, times):
+    """The frames of a run nearest to the times; first, middle and last if there are none."""
+    frames = read_frames(folder)
+    if times is None:
+        return [frames[0], frames[len(frames) // 2], frames[-1]]
+    return [min(frames, key=lambda frame: abs(frame[0] - time)) for time in times]
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=pathlib.Path, help="output folder of a run")
     parser.add_argument("picture", help="PNG file to write")
+    parser.add_argument("--below", type=pathlib.Path, help="output folder of another run, drawn below the first")
+    parser.add_argument("--names", nargs="+", default=[], help="what the runs are called")
     parser.add_argument("--times", type=float, nargs="+", help="instants [s]; the nearest frames are taken")
+    parser.add_argument("--instants", nargs="+", help="what the instants are called, instead of their times")
+    parser.add_argument("--stacked", action="store_true", help="instants below each other and runs side by side")
+    parser.add_argument("--enlarge", type=float, default=1, help="draw so many times the displacement")
     parser.add_argument("--field", default="von_mises_stress", help="what colours the body")
-    parser.add_argument("--title", help="title of the colours")
-    parser.add_argument("--camera", type=float, nargs=3, default=(-1.2, -0.7, 0.6), help="direction to look from")
-    parser.add_argument("--zoom", type=float, default=1.0)
-    parser.add_argument("--width", type=int, default=1500)
-    parser.add_argument("--height", type=int, default=640)
+    parser.add_argument("--range", type=float, nargs=2, help="where the colours begin and end")
+    parser.add_argument("--title", help="title of the colours, without the unit")
+    parser.add_argument("--outline", choices=("edges", "silhouette"), default="edges", help="of the body at rest")
+    parser.add_argument("--camera", type=float, nargs=3, help="direction to look from")
+    parser.add_argument("--up", type=float, nargs=3, help="direction that is upwards in the picture")
+    parser.add_argument("--width", type=int, default=1200, help="of the picture in pixels")
     arguments = parser.parse_args()
 
-    frames = read_frames(arguments.folder)
-    if arguments.times is None:
-        instants = [frames[0], frames[len(frames) // 2], frames[-1]]
-    else:
-        instants = [min(frames, key=lambda frame: abs(frame[0] - time)) for time in arguments.times]
-    draw(instants, arguments)
+    folders = [arguments.folder] + ([arguments.below] if arguments.below else [])
+    arguments.names = (arguments.names + [""] * len(folders))[:len(folders)]
+    runs = [choose(folder, arguments.times) for folder in folders]
+    if arguments.instants and len(arguments.instants) != len(runs[0]):
+        parser.error(f"--instants has {len(arguments.instants)} names for {len(runs[0])} instants")
+    draw(runs, arguments)
 
 
 if __name__ == "__main__":

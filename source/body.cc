@@ -1,15 +1,14 @@
 #include <supple/body.h>
 
-#include <supple/compatibility.h>
 #include <supple/error.h>
 #include <supple/expression.h>
 
 #include <deal.II/base/utilities.h>
-#include <deal.II/fe/fe_simplex_p.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <sstream>
 
 namespace Supple
 {
@@ -18,34 +17,34 @@ namespace Supple
   Body::Body(const Mesh &mesh, const Parameters &parameters)
     : mesh(mesh)
     , rotation(parameters.corotation.rotation)
-    , fe(FE_SimplexP<3>(1), 3)
-    , dof_handler(mesh.triangulation)
+    , partitioner(mesh.parts->partitioner)
+    , n_owned(mesh.parts->n_owned)
+    , n_local(mesh.parts->n_local)
+    , positions(mesh.parts->positions)
+    , serial_vertex(mesh.parts->serial_vertex)
   {
-    dof_handler.distribute_dofs(fe);
-    number_nodes();
     collect_cells(parameters);
   }
 
 
-  void
-  Body::number_nodes()
+  unsigned int
+  Body::n_dofs() const
   {
-    partitioner =
-      std::make_shared<Utilities::MPI::Partitioner>(dof_handler.locally_owned_dofs(),
-                                                    Compatibility::locally_relevant_dofs(
-                                                      dof_handler),
-                                                    mesh.communicator);
-    n_owned = partitioner->locally_owned_size() / 3;
-    n_local = n_owned + partitioner->n_ghost_indices() / 3;
+    return mesh.section.plane() ? partitioner->size() / 3 * 2 : partitioner->size();
+  }
+
+
+  bool
+  Body::is_held_by_nature(const unsigned int dof) const
+  {
+    return (mesh.section.plane() && dof % 3 == 2) ||
+           (mesh.section.axisymmetric() && dof % 3 == 0 && positions[dof / 3][0] == 0.);
   }
 
 
   void
   Body::collect_cells(const Parameters &parameters)
   {
-    positions.resize(n_local);
-    serial_vertex.resize(n_local);
-
     const auto exceptions = parameters.material.exceptions(parameters.origin("Material/By id"));
     for (const auto &[id, n_cells] : mesh.materials)
       {
@@ -59,43 +58,28 @@ namespace Supple
                          std::to_string(id) + ".");
 
     std::vector<Tetrahedron> cells;
-    std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-    for (const auto &cell : dof_handler.active_cell_iterators())
+    for (const LocalCell &cell : mesh.parts->cells)
       {
-        if (cell->is_artificial())
+        const bool touches_owned =
+          std::any_of(cell.nodes.begin(), cell.nodes.end(), [&](const unsigned int node) {
+            return node < n_owned;
+          });
+        if (!touches_owned && !cell.owned)
           continue;
-        cell->get_dof_indices(dofs);
-
-        Tetrahedron tetrahedron;
-        bool touches_owned = false;
-        for (unsigned int a = 0; a < 4; ++a)
-          {
-            const unsigned int first = partitioner->global_to_local(dofs[3 * a]);
-            // The rest of the program counts on three numbers in a row for each vertex.
-            AssertThrow(first % 3 == 0 &&
-                          partitioner->global_to_local(dofs[3 * a + 1]) == first + 1 &&
-                          partitioner->global_to_local(dofs[3 * a + 2]) == first + 2,
-                        ExcInternalError());
-            const unsigned int node = first / 3;
-            tetrahedron.nodes[a]    = node;
-            touches_owned           = touches_owned || node < n_owned;
-            for (unsigned int d = 0; d < 3; ++d)
-              positions[node][d] = cell->vertex(a)[d];
-            serial_vertex[node] = mesh.serial_vertex[cell->vertex_index(a)];
-          }
-        if (!touches_owned && !cell->is_locally_owned())
-          continue;
-        tetrahedron.material = material(cell->material_id());
+        IsotropicMaterial cell_is_of = material(cell.material_id);
         if (parameters.material.vertex_mass > 0.)
-          tetrahedron.material.density = 0.;
-        tetrahedron.owned = cell->is_locally_owned();
-        cells.push_back(tetrahedron);
-        cell_nodes.push_back(tetrahedron.nodes);
-        active_cell.push_back(cell->active_cell_index());
-        cell_material.push_back(cell->material_id());
+          cell_is_of.density = 0.;
+        cells.push_back({cell.nodes, cell_is_of, cell.owned});
+        cell_nodes.push_back(cell.nodes);
+        cell_index.push_back(cell.index);
+        cell_material.push_back(cell.material_id);
       }
-    tetrahedra = std::make_unique<Tetrahedra>(
-      positions, n_owned, cells, parameters.material.lumped, parameters.material.vertex_mass);
+    tetrahedra = std::make_unique<Tetrahedra>(positions,
+                                              n_owned,
+                                              cells,
+                                              parameters.material.lumped,
+                                              parameters.material.vertex_mass,
+                                              mesh.section);
   }
 
 
@@ -115,6 +99,17 @@ namespace Supple
     const GhostValues values(displacement);
     tetrahedra->update_rotations(rotation, values.data());
     effort.rotations_computed += cell_nodes.size();
+  }
+
+
+  void
+  Body::update_rotation_stiffness(const Tangent tangent,
+                                  const Vector &displacement,
+                                  Effort &effort) const
+  {
+    const PhaseTimer timer(effort, Phase::assembly);
+    const GhostValues values(displacement);
+    tetrahedra->update_rotation_stiffness(tangent, values.data());
   }
 
 
@@ -192,7 +187,7 @@ namespace Supple
     auto index       = numbers_in(argument("vertex"));
     const auto point = numbers_in(argument("nearest to"));
     if (point.size() == 3)
-      index = {double(nearest_vertex({point[0], point[1], point[2]}).first)};
+      index = {double(vertex_of_body({point[0], point[1], point[2]}, origin))};
     if (index.size() != 1)
       throw InputError(
         origin +
@@ -208,6 +203,24 @@ namespace Supple
       throw InputError(origin + ": the body has no such vertex; the indices go from 0 to " +
                        std::to_string(mesh.report.piece.size() - 1) + ".");
     return nodes;
+  }
+
+
+  unsigned int
+  Body::vertex_of_body(const Point<3> &point, const std::string &origin) const
+  {
+    const auto [vertex, distance] = nearest_vertex(point);
+    const auto corners            = mesh.bounding_box.get_boundary_points();
+    for (unsigned int d = 0; d < 3; ++d)
+      if (std::max(corners.first[d] - point[d], point[d] - corners.second[d]) >
+          0.02 * mesh.diameter())
+        {
+          std::ostringstream text;
+          text << origin << ": this point is outside the body, which lies in " << mesh.extent()
+               << " m; its nearest vertex is " << distance << " m away.";
+          throw InputError(text.str());
+        }
+    return vertex;
   }
 
 
@@ -256,24 +269,9 @@ namespace Supple
       require_boundary(id, origin);
 
     std::vector<std::array<unsigned int, 3>> faces;
-    std::vector<types::global_dof_index> dofs(fe.n_dofs_per_face());
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      if (!cell->is_artificial())
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary() &&
-              std::count(boundary_ids.begin(), boundary_ids.end(), cell->face(f)->boundary_id()) >
-                0)
-            {
-              cell->face(f)->get_dof_indices(dofs);
-              std::array<unsigned int, 3> face;
-              for (unsigned int v = 0; v < 3; ++v)
-                face[v] = partitioner->global_to_local(dofs[3 * v]) / 3;
-              const auto normal = cross_product_3d(position(face[1]) - position(face[0]),
-                                                   position(face[2]) - position(face[0]));
-              if (normal * (cell->center() - position(face[0])) > 0.)
-                std::swap(face[1], face[2]);
-              faces.push_back(face);
-            }
+    for (const LocalFace &face : mesh.parts->faces)
+      if (std::count(boundary_ids.begin(), boundary_ids.end(), face.boundary_id) > 0)
+        faces.push_back(face.nodes);
     return faces;
   }
 
@@ -286,16 +284,10 @@ namespace Supple
     // A face is seen by the process that owns its cell; its nodes may be owned by another one.
     Vector marked;
     initialize(marked);
-    std::vector<types::global_dof_index> dofs(fe.n_dofs_per_face());
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary_id)
-            {
-              cell->face(f)->get_dof_indices(dofs);
-              for (const auto dof : dofs)
-                marked.local_element(partitioner->global_to_local(dof)) = 1.;
-            }
+    for (const LocalFace &face : mesh.parts->faces)
+      if (face.owned && face.boundary_id == boundary_id)
+        for (const unsigned int node : face.nodes)
+          marked.local_element(3 * node) = 1.;
     marked.compress(VectorOperation::add);
 
     const GhostValues values(marked);

@@ -42,16 +42,32 @@ namespace Supple
       if (!parameters.motions[m].of.empty())
         add_motion(parameters.motions[m], Parameters::motion_section(m), parameters);
 
-    for (unsigned int dof = 0; dof < 3 * body.n_owned; ++dof)
-      if (held[dof])
-        held_owned.push_back(dof);
-    n_held = Utilities::MPI::sum(held_owned.size(), body.mesh.communicator);
+    complete();
+  }
+
+
+  void
+  Constraints::complete()
+  {
+    // A piece that nothing but its own nature holds is as free as a body can be.
     std::vector<unsigned int> held_in(body.mesh.report.n_pieces), total(held_in.size());
-    for (const unsigned int dof : held_owned)
-      held_in[body.mesh.report.piece[body.serial_vertex[dof / 3]]] = 1;
+    unsigned int n_counted = 0;
+    for (unsigned int dof = 0; dof < 3 * body.n_local; ++dof)
+      {
+        const bool by_nature = body.is_held_by_nature(dof);
+        held[dof]            = held[dof] || by_nature;
+        if (!held[dof] || dof >= 3 * body.n_owned)
+          continue;
+        held_owned.push_back(dof);
+        if (!by_nature)
+          held_in[body.mesh.report.piece[body.serial_vertex[dof / 3]]] = 1;
+        n_counted += !(body.mesh.section.plane() && dof % 3 == 2);
+      }
+    n_held = Utilities::MPI::sum(n_counted, body.mesh.communicator);
     Utilities::MPI::sum(held_in, body.mesh.communicator, total);
     n_pieces_free        = std::count(total.begin(), total.end(), 0u);
-    n_free_rigid_motions = count_free_rigid_motions(body);
+    n_rigid_motions      = body.mesh.section.axisymmetric() ? 1 : body.mesh.section.plane() ? 3 : 6;
+    n_free_rigid_motions = count_free_rigid_motions();
   }
 
 
@@ -60,7 +76,7 @@ namespace Supple
    * matrix of its scalar products. Lengths are measured in diameters of the body.
    */
   unsigned int
-  Constraints::count_free_rigid_motions(const Body &body) const
+  Constraints::count_free_rigid_motions() const
   {
     const auto corners    = body.mesh.bounding_box.get_boundary_points();
     const Point<3> center = body.mesh.bounding_box.center();
@@ -80,6 +96,12 @@ namespace Supple
     std::vector<double> sum(products.data(), products.data() + 36), total(36);
     Utilities::MPI::sum(sum, body.mesh.communicator, total);
     std::copy(total.begin(), total.end(), products.data());
+    if (body.mesh.section.plane()) // along z and out of the plane
+      for (const unsigned int motion : {2, 3, 4})
+        products(motion, motion) += 1.;
+    if (body.mesh.section.axisymmetric()) // away from the axis to one side
+      for (const unsigned int motion : {0, 5})
+        products(motion, motion) += 1.;
 
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(products,
                                                                             Eigen::EigenvaluesOnly);
@@ -105,15 +127,22 @@ namespace Supple
         if (components[i] == "free")
           continue;
         motions.push_back({i, Expression(components[i], 1, origin), {}});
-        unsigned int n_twice = 0;
+        unsigned int n_twice = 0, n_by_nature = 0;
         for (unsigned int node = 0; node < body.n_local; ++node)
-          if (nodes[node])
+          if (nodes[node] && body.is_held_by_nature(3 * node + i))
+            ++n_by_nature;
+          else if (nodes[node])
             {
               n_twice += held[3 * node + i];
               held[3 * node + i] = true;
               if (node < body.n_owned)
                 motions.back().nodes.push_back(node);
             }
+        if (!motions.back().displacement.is_zero() &&
+            Utilities::MPI::max(n_by_nature, body.mesh.communicator) > 0)
+          throw InputError(origin +
+                           ": some of these vertices are on the axis and stay there; along "
+                           "x their displacement must be 0 or free.");
         if (Utilities::MPI::max(n_twice, body.mesh.communicator) > 0)
           throw InputError(parameters.origin(section + "/Of") +
                            ": some of these vertices are held or moved already along " +

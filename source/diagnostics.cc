@@ -1,6 +1,13 @@
 #include <supple/diagnostics.h>
 
+#include <supple/energy_guard.h>
+
 #include <deal.II/base/mpi.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace Supple
 {
@@ -69,6 +76,49 @@ namespace Supple
   }
 
 
+  void
+  Diagnostics::note_extremes(const Measurement &measurement, const double rise)
+  {
+    largest_energy = std::max({largest_energy, std::abs(measurement.total), std::abs(work)});
+    worst.min_volume_ratio = std::min(worst.min_volume_ratio, measurement.min_volume_ratio);
+    worst.max_volume_ratio = std::max(worst.max_volume_ratio, measurement.max_volume_ratio);
+    worst.most_inverted    = std::max(worst.most_inverted, measurement.inverted);
+    if (rise > energy_accuracy * largest_energy)
+      ++worst.energy_rises;
+  }
+
+
+  nlohmann::json
+  Diagnostics::save() const
+  {
+    return {{"elastic", elastic},
+            {"total", total},
+            {"dissipated", dissipated},
+            {"work", work},
+            {"largest_energy", largest_energy},
+            {"energy_rises", worst.energy_rises},
+            {"most_inverted", worst.most_inverted},
+            {"min_volume_ratio", worst.min_volume_ratio},
+            {"max_volume_ratio", worst.max_volume_ratio}};
+  }
+
+
+  void
+  Diagnostics::load(const nlohmann::json &saved)
+  {
+    first                  = false;
+    elastic                = saved.at("elastic");
+    total                  = saved.at("total");
+    dissipated             = saved.at("dissipated");
+    work                   = saved.at("work");
+    largest_energy         = saved.at("largest_energy");
+    worst.energy_rises     = saved.at("energy_rises");
+    worst.most_inverted    = saved.at("most_inverted");
+    worst.min_volume_ratio = saved.at("min_volume_ratio");
+    worst.max_volume_ratio = saved.at("max_volume_ratio");
+  }
+
+
   Measurement
   Diagnostics::measure(const unsigned int step,
                        const double time,
@@ -86,18 +136,18 @@ namespace Supple
     std::vector<double> sums    = {local.kinetic, local.elastic, double(local.inverted)};
     sums.insert(sums.end(), local.linear_momentum.begin(), local.linear_momentum.end());
     sums.insert(sums.end(), local.angular_momentum.begin(), local.angular_momentum.end());
-    std::vector<double> total(sums.size());
-    Utilities::MPI::sum(sums, communicator, total);
+    std::vector<double> global(sums.size());
+    Utilities::MPI::sum(sums, communicator, global);
 
     Measurement result;
     result.step             = step;
     result.time             = time;
     result.dt               = report.dt;
-    result.kinetic          = total[0];
-    result.elastic          = total[1];
-    result.inverted         = static_cast<unsigned int>(total[2]);
-    result.linear_momentum  = {{total[3], total[4], total[5]}};
-    result.angular_momentum = {{total[6], total[7], total[8]}};
+    result.kinetic          = global[0];
+    result.elastic          = global[1];
+    result.inverted         = static_cast<unsigned int>(global[2]);
+    result.linear_momentum  = {{global[3], global[4], global[5]}};
+    result.angular_momentum = {{global[6], global[7], global[8]}};
     result.min_volume_ratio = Utilities::MPI::min(local.min_volume_ratio, communicator);
     result.max_volume_ratio = Utilities::MPI::max(local.max_volume_ratio, communicator);
 
@@ -105,10 +155,14 @@ namespace Supple
     result.potential         = load_factor * loads.potential(state.block(0));
     result.total             = result.kinetic + result.elastic + result.potential;
 
-    if (!first && !stationary)
-      dissipated += report.expended - (result.elastic - elastic);
+    if (!first && report.expended)
+      dissipated += *report.expended - (result.elastic - elastic);
+    else if (!first && !stationary)
+      dissipated += report.load_work - (result.total - total);
+    note_extremes(result, first || stationary ? 0. : result.total - total - report.load_work);
     work += report.load_work;
     elastic           = result.elastic;
+    total             = result.total;
     first             = false;
     result.dissipated = dissipated;
     result.work       = work;

@@ -60,7 +60,7 @@ namespace Supple
 
     zero = true;
     for (const std::string &component : components)
-      zero = zero && std::regex_match(component, std::regex("[+-]?0*\\.?0*"));
+      zero = zero && says_zero(component);
     time_dependent = std::regex_search(text, std::regex("\\bt\\b"));
 
     const std::map<std::string, double> constants = {{"pi", dealii::numbers::PI}};
@@ -79,6 +79,13 @@ namespace Supple
           "\nAn expression uses x, y, z, t, pi, numbers, + - * / ^, comparisons, && ||, "
           "if(condition, a, b) and functions such as sin, exp, sqrt, min, max.");
       }
+  }
+
+
+  bool
+  Expression::says_zero(const std::string &text)
+  {
+    return std::regex_match(text, std::regex("[+-]?0*\\.?0*"));
   }
 
 

@@ -5,8 +5,8 @@
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
-#include <deal.II/fe/mapping_fe_field.h>
-#include <deal.II/numerics/data_out.h>
+
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <sstream>
@@ -21,6 +21,30 @@ namespace Supple
     , folder(folder)
   {
     body.initialize(last_displacement);
+  }
+
+
+  nlohmann::json
+  Frames::save() const
+  {
+    return {{"records", records},
+            {"step", last.step},
+            {"time", last.time},
+            {"min_volume_ratio", min_volume_ratio},
+            {"max_volume_ratio", max_volume_ratio},
+            {"inverted", inverted}};
+  }
+
+
+  void
+  Frames::load(const nlohmann::json &saved)
+  {
+    records          = saved.at("records").get<std::vector<std::pair<double, std::string>>>();
+    last.step        = saved.at("step");
+    last.time        = saved.at("time");
+    min_volume_ratio = saved.at("min_volume_ratio");
+    max_volume_ratio = saved.at("max_volume_ratio");
+    inverted         = saved.at("inverted");
   }
 
 
@@ -100,70 +124,49 @@ namespace Supple
   void
   Frames::write_vtu(const State &state, const Measurement &now, const std::string &name)
   {
-    DataOut<3> data;
-    data.attach_dof_handler(body.dof_handler);
-    DataOutBase::VtkFlags flags(now.time, now.step);
-    flags.compression_level = DataOutBase::VtkFlags::best_speed;
-    data.set_flags(flags);
-
-    // DataOut works with whole vectors: ghost values stay valid until the patches are built.
+    // Drawing works with whole vectors: ghost values stay valid until it is done.
     for (unsigned int b = 0; b < state.n_blocks(); ++b)
       state.block(b).update_ghost_values();
-    std::array<dealii::Vector<float>, 4> cell_fields; // data refers to them
-    add_fields(state, data, cell_fields);
-    Vector deformed; // the mapping wants positions, not displacements
+    Vector deformed;
     body.initialize(deformed);
     for (unsigned int node = 0; node < body.n_owned; ++node)
       for (unsigned int i = 0; i < 3; ++i)
         deformed.local_element(3 * node + i) =
           body.positions[node][i] + state.block(0).local_element(3 * node + i);
     deformed.update_ghost_values();
-    const MappingFEField<3, 3, Vector> mapping(body.dof_handler, deformed);
-    data.build_patches(mapping);
+
+    Drawing drawing{now.time, now.step, deformed, {}, cell_fields(state)};
+    const char *const names[] = {"displacement", "velocity"};
+    for (unsigned int b = 0; b < state.n_blocks(); ++b)
+      drawing.of_nodes.emplace_back(names[b], &state.block(b));
+    write_pieces(drawing, name);
     for (unsigned int b = 0; b < state.n_blocks(); ++b)
       state.block(b).zero_out_ghost_values();
-
-    write_pieces(data, name);
   }
 
 
-  void
-  Frames::add_fields(const State &state,
-                     DataOut<3> &data,
-                     std::array<dealii::Vector<float>, 4> &cell_fields) const
+  std::vector<std::pair<std::string, dealii::Vector<float>>>
+  Frames::cell_fields(const State &state) const
   {
-    const std::vector<DataComponentInterpretation::DataComponentInterpretation> vector_valued(
-      3, DataComponentInterpretation::component_is_part_of_vector);
-    const char *const names[] = {"displacement", "velocity"};
-    for (unsigned int b = 0; b < state.n_blocks(); ++b)
-      data.add_data_vector(state.block(b),
-                           std::vector<std::string>(3, names[b]),
-                           DataOut<3>::type_dof_data,
-                           vector_valued);
-
+    std::vector<std::pair<std::string, dealii::Vector<float>>> fields;
+    for (const char *name : {"volume_ratio", "von_mises_stress", "rotation_angle", "material"})
+      fields.emplace_back(name, dealii::Vector<float>(body.mesh.parts->n_cells));
     const std::vector<CellState> states = body.tetrahedra->states(state.block(0).begin());
-    for (auto &field : cell_fields)
-      field.reinit(body.mesh.triangulation.n_active_cells());
     for (std::size_t c = 0; c < states.size(); ++c)
       {
-        const unsigned int cell = body.active_cell[c];
-        cell_fields[0][cell]    = states[c].volume_ratio;
-        cell_fields[1][cell]    = states[c].von_mises_stress;
-        cell_fields[2][cell]    = states[c].rotation_angle;
-        cell_fields[3][cell]    = body.cell_material[c];
+        const unsigned int cell = body.cell_index[c];
+        fields[0].second[cell]  = states[c].volume_ratio;
+        fields[1].second[cell]  = states[c].von_mises_stress;
+        fields[2].second[cell]  = states[c].rotation_angle;
+        fields[3].second[cell]  = body.cell_material[c];
       }
-    const char *const cell_names[] = {"volume_ratio",
-                                      "von_mises_stress",
-                                      "rotation_angle",
-                                      "material"};
-    for (unsigned int f = 0; f < cell_fields.size(); ++f)
-      data.add_data_vector(cell_fields[f], cell_names[f], DataOut<3>::type_cell_data);
+    return fields;
   }
 
 
   /** A file for each process, and on several a record that names them all. */
   void
-  Frames::write_pieces(const DataOut<3> &data, const std::string &name) const
+  Frames::write_pieces(const Drawing &drawing, const std::string &name) const
   {
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(body.mesh.communicator);
     const unsigned int rank    = Utilities::MPI::this_mpi_process(body.mesh.communicator);
@@ -171,16 +174,13 @@ namespace Supple
     for (unsigned int r = 0; r < n_ranks; ++r)
       pieces.push_back(n_ranks == 1 ? name + ".vtu" : name + "." + std::to_string(r) + ".vtu");
 
-    std::ostringstream content;
-    data.write_vtu(content);
-    write_whole_file(folder + "/solution/" + pieces[rank], content.str());
+    const auto [part, record] = body.mesh.parts->draw(drawing, pieces);
+    write_whole_file(folder + "/solution/" + pieces[rank], part);
     if (n_ranks > 1)
       {
         MPI_Barrier(body.mesh.communicator); // the record names no file that is not there
-        std::ostringstream record;
-        data.write_pvtu_record(record, pieces);
         if (rank == 0)
-          write_whole_file(folder + "/solution/" + name + ".pvtu", record.str());
+          write_whole_file(folder + "/solution/" + name + ".pvtu", record);
       }
   }
 } // namespace Supple

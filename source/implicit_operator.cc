@@ -77,13 +77,14 @@ namespace Supple
   void
   ImplicitOperator::assemble(const double mass_factor,
                              const double stiffness_factor,
+                             const double rotation_factor,
                              const double diagonal_term)
   {
     const PhaseTimer timer(effort, Phase::assembly);
     ++effort.assemblies;
 
     A.set_zero();
-    body.tetrahedra->add_tangent(mass_factor, stiffness_factor, A);
+    body.tetrahedra->add_tangent(mass_factor, stiffness_factor, rotation_factor, A);
     if (diagonal_term != 0.)
       A.add_to_diagonal(diagonal_term);
     for (const std::size_t position : masked_diagonal)
@@ -98,6 +99,7 @@ namespace Supple
   {
     assemble(1. + gamma * damping.mass_factor,
              gamma * gamma + gamma * damping.stiffness_factor,
+             gamma * gamma,
              gamma * damping.viscous);
   }
 
@@ -105,7 +107,7 @@ namespace Supple
   void
   ImplicitOperator::assemble_stiffness()
   {
-    assemble(0., 1., 0.);
+    assemble(0., 1., 1., 0.);
   }
 
 
@@ -130,7 +132,10 @@ namespace Supple
   ImplicitOperator::stiffness_vmult(Vector &y, const Vector &x) const
   {
     const GhostValues values(x);
-    sum_into(y, [&](double *sum) { body.tetrahedra->add_stiffness_product(values.data(), sum); });
+    sum_into(y, [&](double *sum) {
+      body.tetrahedra->add_stiffness_product(values.data(), sum);
+      body.tetrahedra->add_rotation_product(values.data(), sum);
+    });
     constraints.set_zero(y);
   }
 } // namespace Supple

@@ -38,7 +38,7 @@ namespace Supple
         }
       const bool constant       = A.body.rotation == RotationMethod::none;
       const Limits limits       = constant ? constant_operator : changing_operator;
-      const unsigned int n_dofs = A.body.dof_handler.n_dofs();
+      const unsigned int n_dofs = A.body.n_dofs();
       const auto explain        = [&](const std::string &comparison, const unsigned int limit) {
         reason = std::to_string(n_dofs) + " unknowns, " + comparison + " " + std::to_string(limit) +
                  (constant ? ", the operator never changes" : ", the operator changes");

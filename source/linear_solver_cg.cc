@@ -123,6 +123,12 @@ namespace Supple
         make_pattern();
       }
 
+      /** ML looks at the matrix once more when it goes. */
+      ~MultigridSolver() override
+      {
+        preconditioner.clear();
+      }
+
       std::string
       name() const override
       {
@@ -167,7 +173,7 @@ namespace Supple
       void
       make_pattern()
       {
-        const IndexSet &owned = A.body.dof_handler.locally_owned_dofs();
+        const IndexSet &owned = A.body.partitioner->locally_owned_range();
         DynamicSparsityPattern sparsity(owned.size(), owned.size(), owned);
         for (unsigned int i = 0; i < rows.size(); ++i)
           for (const Entry &entry : rows[i])
@@ -198,13 +204,20 @@ namespace Supple
         matrix.compress(VectorOperation::insert);
       }
 
-      /** Three translations and three rotations of the deformed body, one after the other. */
+      /** Three translations and three rotations of the deformed body, one after the other; those
+       * in the plane for a plane body, which are as soft all around an axis, or nearly so. */
       void
       find_rigid_motions(const Vector &displacement)
       {
-        const unsigned int n  = 3 * A.body.n_owned;
-        const Point<3> center = A.body.mesh.bounding_box.center();
-        rigid_motions.assign(6 * n, 0.);
+        const unsigned int n        = 3 * A.body.n_owned;
+        const Point<3> center       = A.body.mesh.bounding_box.center();
+        constexpr unsigned int none = numbers::invalid_unsigned_int;
+        const bool plane            = A.body.mesh.section.plane();
+        const std::array<unsigned int, 6> place =
+          plane ? std::array<unsigned int, 6>{{0, 1, none, none, none, 2}}
+                : std::array<unsigned int, 6>{{0, 1, 2, 3, 4, 5}};
+        n_rigid_motions = plane ? 3 : 6;
+        rigid_motions.assign(n_rigid_motions * n, 0.);
         for (unsigned int node = 0; node < A.body.n_owned; ++node)
           for (unsigned int i = 0; i < 3; ++i)
             {
@@ -214,10 +227,13 @@ namespace Supple
                         center[d]) /
                        A.body.mesh.diameter();
               };
-              const std::size_t dof             = 3 * node + i;
-              rigid_motions[i * n + dof]        = 1.;
-              rigid_motions[(3 + i1) * n + dof] = x(i2);
-              rigid_motions[(3 + i2) * n + dof] = -x(i1);
+              const auto set = [&](const unsigned int motion, const double value) {
+                if (place[motion] != none)
+                  rigid_motions[place[motion] * n + 3 * node + i] = value;
+              };
+              set(i, 1.);
+              set(3 + i1, x(i2));
+              set(3 + i2, -x(i1));
             }
       }
 
@@ -237,7 +253,7 @@ namespace Supple
         list.set("coarse: type", "Amesos-KLU");
         list.set("coarse: max size", 1000);
         list.set("null space: type", "pre-computed");
-        list.set("null space: dimension", 6);
+        list.set("null space: dimension", static_cast<int>(n_rigid_motions));
         list.set("null space: vectors", rigid_motions.data());
         list.set("null space: add default vectors", false);
         preconditioner.initialize(matrix, list);
@@ -246,6 +262,7 @@ namespace Supple
 
       std::vector<std::vector<Entry>> rows;
       TrilinosWrappers::SparseMatrix matrix;
+      unsigned int n_rigid_motions = 0;
       std::vector<double> rigid_motions;
     };
   } // namespace

@@ -4,6 +4,7 @@
 #include <Eigen/CholmodSupport>
 #include <Eigen/SparseCholesky>
 
+#include <algorithm>
 #include <cstdlib>
 
 // OpenBLAS has it, other BLAS libraries have not.
@@ -70,46 +71,48 @@ namespace Supple
       }
 
     private:
+      /** Calls @p visit(row, column, value) for each entry of the upper triangle, column by column
+       * from the top. Nothing is coupled to the z of a plane body. */
+      template <class Visit>
+      void
+      for_each_entry(const Visit &visit) const
+      {
+        const SymmetricBlockMatrix &blocks = A.matrix();
+        const SymmetricPattern &pattern    = blocks.pattern;
+        const unsigned int n_coupled       = A.body.mesh.section.plane() ? 2 : 3;
+        for (std::size_t i = 0; i < pattern.n_owned; ++i)
+          for (unsigned int a = 0; a < 3; ++a)
+            {
+              for (std::size_t k = pattern.row_start[i]; k < pattern.row_start[i + 1]; ++k)
+                for (unsigned int b = 0; b < n_coupled && a < n_coupled; ++b)
+                  visit(3 * pattern.column[k] + b, 3 * i + a, blocks.lower[9 * k + 3 * a + b]);
+              for (unsigned int b = a < n_coupled ? 0 : a; b <= a; ++b)
+                visit(3 * i + b, 3 * i + a, blocks.diagonal[9 * i + 3 * a + b]);
+            }
+      }
+
       void
       make_pattern()
       {
-        const SymmetricPattern &pattern = A.matrix().pattern;
-        const std::size_t n             = 3 * static_cast<std::size_t>(pattern.n_owned);
+        const std::size_t n = 3 * static_cast<std::size_t>(A.matrix().pattern.n_owned);
+        std::vector<int> rows, first(n + 1);
+        for_each_entry([&](const std::size_t row, const std::size_t column, const double) {
+          rows.push_back(row);
+          first[column + 1] = rows.size();
+        });
         matrix.resize(n, n);
-        matrix.resizeNonZeros(9 * pattern.n_entries() + 6 * pattern.n_owned);
-
-        int end        = 0;
-        auto row_index = matrix.innerIndexPtr();
-        for (unsigned int i = 0; i < pattern.n_owned; ++i)
-          for (unsigned int a = 0; a < 3; ++a)
-            {
-              matrix.outerIndexPtr()[3 * i + a] = end;
-              for (std::size_t k = pattern.row_start[i]; k < pattern.row_start[i + 1]; ++k)
-                for (unsigned int b = 0; b < 3; ++b)
-                  row_index[end++] = 3 * pattern.column[k] + b;
-              for (unsigned int b = 0; b <= a; ++b)
-                row_index[end++] = 3 * i + b;
-            }
-        matrix.outerIndexPtr()[n] = end;
+        matrix.resizeNonZeros(rows.size());
+        std::copy(first.begin(), first.end(), matrix.outerIndexPtr());
+        std::copy(rows.begin(), rows.end(), matrix.innerIndexPtr());
         copy_values();
       }
 
       void
       copy_values()
       {
-        const SymmetricBlockMatrix &blocks = A.matrix();
-        const SymmetricPattern &pattern    = blocks.pattern;
-
         double *value = matrix.valuePtr();
-        for (std::size_t i = 0; i < pattern.n_owned; ++i)
-          for (unsigned int a = 0; a < 3; ++a)
-            {
-              for (std::size_t k = pattern.row_start[i]; k < pattern.row_start[i + 1]; ++k)
-                for (unsigned int b = 0; b < 3; ++b)
-                  *value++ = blocks.lower[9 * k + 3 * a + b];
-              for (unsigned int b = 0; b <= a; ++b)
-                *value++ = blocks.diagonal[9 * i + 3 * a + b];
-            }
+        for_each_entry(
+          [&](const std::size_t, const std::size_t, const double entry) { *value++ = entry; });
       }
 
       void

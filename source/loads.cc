@@ -71,6 +71,34 @@ namespace Supple
   }
 
 
+  /**
+   * For a triangle, (1 + delta_vw) / 12 of its area. An edge of a plane body stands for a strip as
+   * wide as the section is thick, (1 + delta_vw) / 6 of its area, or for a ring about the axis, as
+   * wide as its distance from there, which is linear along the edge, makes it.
+   */
+  Loads::FaceIntegrals
+  Loads::integrals(const std::array<Point<3>, 3> &x) const
+  {
+    const Section &section = body.mesh.section;
+    FaceIntegrals result{};
+    if (!section.plane())
+      {
+        result.normal = 0.5 * cross_product_3d(x[1] - x[0], x[2] - x[0]);
+        for (unsigned int v = 0; v < 3; ++v)
+          for (unsigned int w = 0; w < 3; ++w)
+            result.products[v][w] = (v == w ? 2. : 1.) / 12.;
+        return result;
+      }
+    result.normal = cross_product_3d(x[1] - x[0], Point<3>(0., 0., 1.));
+    const std::array<double, 2> width{
+      {section.thickness_at(x[0][0]), section.thickness_at(x[1][0])}};
+    result.products[0][0] = width[0] / 4. + width[1] / 12.;
+    result.products[1][1] = width[0] / 12. + width[1] / 4.;
+    result.products[0][1] = result.products[1][0] = (width[0] + width[1]) / 12.;
+    return result;
+  }
+
+
   /** Integrals of the force's linear interpolation times the shape functions. */
   void
   Loads::add_body_force(const double time, Vector &force) const
@@ -95,18 +123,22 @@ namespace Supple
   {
     for (const auto &face : traction_faces)
       {
+        std::array<Point<3>, 3> x;
         std::array<Tensor<1, 3>, 3> values;
         for (unsigned int v = 0; v < 3; ++v)
-          for (unsigned int i = 0; i < 3; ++i)
-            values[v][i] = traction.value(body.position(face[v]), time, i);
-        const double area = 0.5 * cross_product_3d(body.position(face[1]) - body.position(face[0]),
-                                                   body.position(face[2]) - body.position(face[0]))
-                                    .norm();
-        const Tensor<1, 3> sum = values[0] + values[1] + values[2];
+          {
+            x[v] = body.position(face[v]);
+            for (unsigned int i = 0; i < 3; ++i)
+              values[v][i] = traction.value(x[v], time, i);
+          }
+        const FaceIntegrals over_face = integrals(x);
+        const double size             = over_face.normal.norm();
         for (unsigned int v = 0; v < 3; ++v)
           if (face[v] < body.n_owned)
-            for (unsigned int i = 0; i < 3; ++i)
-              force.local_element(3 * face[v] + i) += area / 12. * (sum[i] + values[v][i]);
+            for (unsigned int w = 0; w < 3; ++w)
+              for (unsigned int i = 0; i < 3; ++i)
+                force.local_element(3 * face[v] + i) +=
+                  size * over_face.products[v][w] * values[w][i];
       }
   }
 
@@ -129,11 +161,13 @@ namespace Supple
               for (unsigned int i = 0; i < 3; ++i)
                 x[v][i] += u.data()[3 * face[v] + i];
           }
-        const Tensor<1, 3> area = 0.5 * cross_product_3d(x[1] - x[0], x[2] - x[0]);
+        const FaceIntegrals over_face = integrals(x);
         for (unsigned int v = 0; v < 3; ++v)
           if (face[v] < body.n_owned)
-            for (unsigned int i = 0; i < 3; ++i)
-              force.local_element(3 * face[v] + i) -= (p[0] + p[1] + p[2] + p[v]) / 12. * area[i];
+            for (unsigned int w = 0; w < 3; ++w)
+              for (unsigned int i = 0; i < 3; ++i)
+                force.local_element(3 * face[v] + i) -=
+                  over_face.products[v][w] * p[w] * over_face.normal[i];
       }
   }
 

@@ -2,10 +2,9 @@
 
 #include <supple/error.h>
 #include <supple/expression.h>
+#include <supple/plane_check.h>
 
 #include <deal.II/base/utilities.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria_description.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -17,37 +16,12 @@ namespace Supple
 
   namespace
   {
-    void
-    create_triangulation(const SerialMesh &mesh, Triangulation<3> &triangulation)
-    {
-      std::vector<CellData<3>> cells;
-      cells.reserve(mesh.cells.size());
-      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-        {
-          cells.emplace_back(4);
-          std::copy(mesh.cells[c].begin(), mesh.cells[c].end(), cells.back().vertices.begin());
-          cells.back().material_id = mesh.materials[c];
-        }
-      SubCellData faces;
-      faces.boundary_quads.reserve(mesh.boundary.size());
-      for (const auto &triangle : mesh.boundary)
-        {
-          faces.boundary_quads.emplace_back(3);
-          std::copy(triangle.vertices.begin(),
-                    triangle.vertices.end(),
-                    faces.boundary_quads.back().vertices.begin());
-          faces.boundary_quads.back().boundary_id = triangle.boundary_id;
-        }
-      triangulation.create_triangulation(mesh.vertices, cells, faces);
-    }
-
-
     /** "[0, 4] x [0, 12] x [0, 4]" */
     std::string
-    extent_of(const BoundingBox<3> &box)
+    extent_of(const BoundingBox<3> &box, const unsigned int dimension)
     {
       std::ostringstream text;
-      for (unsigned int d = 0; d < 3; ++d)
+      for (unsigned int d = 0; d < dimension; ++d)
         text << (d == 0 ? "[" : " x [") << box.lower_bound(d) << ", " << box.upper_bound(d) << "]";
       return text.str();
     }
@@ -58,14 +32,26 @@ namespace Supple
     box_around(const SerialMesh &mesh)
     {
       Point<3> low = mesh.vertices[mesh.cells[0][0]], high = low;
-      for (const auto &cell : mesh.cells)
-        for (const unsigned int v : cell)
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        for (const unsigned int v : mesh.cell_vertices(c))
           for (unsigned int d = 0; d < 3; ++d)
             {
               low[d]  = std::min(low[d], mesh.vertices[v][d]);
               high[d] = std::max(high[d], mesh.vertices[v][d]);
             }
       return BoundingBox<3>({low, high});
+    }
+
+
+    double
+    volume_of(const SerialMesh &mesh, const std::size_t cell, const Section &section)
+    {
+      if (!section.plane())
+        return mesh.volume(cell);
+      double centroid = 0.;
+      for (const unsigned int v : mesh.cell_vertices(cell))
+        centroid += mesh.vertices[v][0] / 3.;
+      return mesh.volume(cell) * section.thickness_at(centroid);
     }
 
 
@@ -88,20 +74,21 @@ namespace Supple
           const Expression inside(item.substr(colon + 1), 1, origin);
 
           unsigned int n_faces = 0;
-          for (auto &triangle : mesh.boundary)
-            if (std::all_of(triangle.vertices.begin(),
-                            triangle.vertices.end(),
-                            [&](const unsigned int v) {
-                              return inside.value(mesh.vertices[v], 0.) != 0.;
-                            }))
-              {
-                triangle.boundary_id = std::stoul(id);
-                ++n_faces;
-              }
+          for (auto &face : mesh.boundary)
+            {
+              const auto vertices = mesh.face_vertices(face);
+              if (std::all_of(vertices.begin(), vertices.end(), [&](const unsigned int v) {
+                    return inside.value(mesh.vertices[v], 0.) != 0.;
+                  }))
+                {
+                  face.boundary_id = std::stoul(id);
+                  ++n_faces;
+                }
+            }
           if (n_faces == 0)
             throw InputError(origin + ": no face of the surface has all its vertices in '" +
                              item.substr(colon + 1) + "'. The body lies in " +
-                             extent_of(box_around(mesh)) + " m.");
+                             extent_of(box_around(mesh), mesh.dimension) + " m.");
         }
     }
   } // namespace
@@ -116,6 +103,8 @@ namespace Supple
           return box_mesh(parameters.mesh);
         case MeshParameters::Shape::hollow_cylinder:
           return hollow_cylinder_mesh(parameters.mesh);
+        case MeshParameters::Shape::rectangle:
+          return rectangle_mesh(parameters.mesh);
         default:
           {
             const auto file = std::filesystem::path(parameters.scene_folder) / parameters.mesh.file;
@@ -130,35 +119,21 @@ namespace Supple
 
   Mesh::Mesh(const Parameters &parameters, const MPI_Comm communicator)
     : communicator(communicator)
-    , triangulation(communicator)
   {
     SerialMesh mesh = make_serial_mesh(parameters);
-    report          = check_mesh(mesh,
+    if (mesh.dimension == 2)
+      section = parameters.plane.section;
+    check_directions(parameters, section);
+    report = check_mesh(mesh,
                         parameters.origin(parameters.mesh.shape == MeshParameters::Shape::file
                                             ? "Mesh/File"
                                             : "Mesh/Shape"));
+    if (section.axisymmetric())
+      fit_to_axis(mesh, parameters);
     assign_boundary_regions(mesh, parameters);
     measure(mesh);
 
-    Triangulation<3> serial;
-    create_triangulation(mesh, serial);
-    GridTools::partition_triangulation(Utilities::MPI::n_mpi_processes(communicator),
-                                       serial,
-                                       SparsityTools::Partitioner::metis);
-    std::vector<unsigned int> cells_of(Utilities::MPI::n_mpi_processes(communicator));
-    for (const auto &cell : serial.active_cell_iterators())
-      ++cells_of[cell->subdomain_id()];
-    if (*std::min_element(cells_of.begin(), cells_of.end()) == 0)
-      throw InputError(std::to_string(cells_of.size()) + " processes are too many for " +
-                       std::to_string(n_cells) + " cells: one of them would have none.");
-    triangulation.create_triangulation(
-      TriangulationDescription::Utilities::create_description_from_triangulation(serial,
-                                                                                 communicator));
-
-    serial_vertex.resize(triangulation.n_vertices());
-    for (const auto &cell : triangulation.active_cell_iterators())
-      for (const unsigned int v : cell->vertex_indices())
-        serial_vertex[cell->vertex_index(v)] = mesh.cells[cell->id().get_coarse_cell_id()][v];
+    parts = DistributedMesh::create(mesh, communicator);
   }
 
 
@@ -171,11 +146,11 @@ namespace Supple
     volume       = 0.;
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
       {
-        volume += mesh.volume(c);
+        volume += volume_of(mesh, c, section);
         ++materials[mesh.materials[c]];
       }
-    for (const auto &triangle : mesh.boundary)
-      ++boundaries[triangle.boundary_id];
+    for (const auto &face : mesh.boundary)
+      ++boundaries[face.boundary_id];
   }
 
 
@@ -190,6 +165,13 @@ namespace Supple
   std::string
   Mesh::extent() const
   {
-    return extent_of(bounding_box);
+    return extent_of(bounding_box, section.plane() ? 2 : 3);
+  }
+
+
+  std::string
+  Mesh::cell_name() const
+  {
+    return section.plane() ? "triangles" : "tetrahedra";
   }
 } // namespace Supple

@@ -17,6 +17,9 @@ namespace Supple
   {
     using Face = std::array<unsigned int, 3>;
 
+    constexpr unsigned int nothing = dealii::numbers::invalid_unsigned_int;
+    constexpr Face no_face         = {{nothing, nothing, nothing}};
+
     struct FaceHash
     {
       std::size_t
@@ -28,6 +31,7 @@ namespace Supple
     };
 
 
+    /** An edge has nothing in the third place. */
     Face
     sorted(Face face)
     {
@@ -36,12 +40,25 @@ namespace Supple
     }
 
 
+    /** The face of a cell opposite to one of its vertices. */
+    Face
+    face_of(const SerialMesh &mesh, const std::size_t cell, const unsigned int opposite)
+    {
+      Face face        = no_face;
+      unsigned int end = 0;
+      for (unsigned int a = 0; a <= mesh.dimension; ++a)
+        if (a != opposite)
+          face[end++] = mesh.cells[cell][a];
+      return face;
+    }
+
+
     Point<3>
     centre(const SerialMesh &mesh, const std::size_t cell)
     {
       Point<3> sum;
-      for (const unsigned int vertex : mesh.cells[cell])
-        sum += mesh.vertices[vertex] / 4.;
+      for (const unsigned int vertex : mesh.cell_vertices(cell))
+        sum += mesh.vertices[vertex] / (mesh.dimension + 1.);
       return sum;
     }
 
@@ -62,7 +79,7 @@ namespace Supple
       std::vector<std::size_t> flat;
       for (std::size_t c = 0; c < mesh.cells.size(); ++c)
         {
-          for (const unsigned int vertex : mesh.cells[c])
+          for (const unsigned int vertex : mesh.cell_vertices(c))
             if (vertex >= mesh.vertices.size())
               throw InputError(origin + ": cell " + std::to_string(c) + " has the vertex " +
                                std::to_string(vertex) + ", but there are only " +
@@ -86,7 +103,8 @@ namespace Supple
         }
       if (!flat.empty())
         throw InputError(origin + ": " + std::to_string(flat.size()) +
-                         " cell(s) are flat, that is without volume; the first is " +
+                         " cell(s) are flat, that is without " +
+                         (mesh.dimension == 3 ? "volume" : "area") + "; the first is " +
                          place(mesh, flat[0]) + ". Mesh the body again, or optimize the mesh.");
     }
 
@@ -97,46 +115,40 @@ namespace Supple
     {
       std::unordered_map<Face, unsigned int, FaceHash> n_cells;
       n_cells.reserve(3 * mesh.cells.size());
-      const auto face_of = [&](const std::size_t c, const unsigned int opposite) {
-        Face face;
-        for (unsigned int a = 0, f = 0; a < 4; ++a)
-          if (a != opposite)
-            face[f++] = mesh.cells[c][a];
-        return face;
-      };
       for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-        for (unsigned int opposite = 0; opposite < 4; ++opposite)
-          if (++n_cells[sorted(face_of(c, opposite))] > 2)
+        for (unsigned int opposite = 0; opposite <= mesh.dimension; ++opposite)
+          if (++n_cells[sorted(face_of(mesh, c, opposite))] > 2)
             throw InputError(origin + ": a face has three cells or more; one of them is " +
                              place(mesh, c) + ". Cells overlap there, or are given twice.");
 
       std::map<Face, unsigned int> given;
       unsigned int inside = 0, twice = 0, strange = 0;
-      for (const auto &triangle : mesh.boundary)
+      for (const auto &face : mesh.boundary)
         {
-          const Face key   = sorted(triangle.vertices);
+          const Face key   = sorted(face.vertices);
           const auto found = n_cells.find(key);
           if (found == n_cells.end())
             ++strange;
           else if (found->second == 2)
             ++inside;
-          else if (!given.emplace(key, triangle.boundary_id).second &&
-                   given[key] != triangle.boundary_id)
+          else if (!given.emplace(key, face.boundary_id).second && given[key] != face.boundary_id)
             ++twice;
         }
       const auto warn = [&](const unsigned int n, const std::string &text) {
         if (n > 0)
           report.warnings.push_back(std::to_string(n) + " " + text);
       };
-      warn(inside, "triangle(s) of physical surfaces lie inside the body and are not used.");
-      warn(twice, "triangle(s) belong to two physical surfaces; the first one counts.");
-      warn(strange, "triangle(s) are no face of a cell and are not used.");
+      const std::string faces  = mesh.dimension == 3 ? "triangle(s)" : "edge(s)";
+      const std::string groups = mesh.dimension == 3 ? "physical surfaces" : "physical curves";
+      warn(inside, faces + " of " + groups + " lie inside the body and are not used.");
+      warn(twice, faces + " belong to two " + groups + "; the first one counts.");
+      warn(strange, faces + " are no face of a cell and are not used.");
 
       mesh.boundary.clear();
       for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-        for (unsigned int opposite = 0; opposite < 4; ++opposite)
+        for (unsigned int opposite = 0; opposite <= mesh.dimension; ++opposite)
           {
-            const Face face = face_of(c, opposite);
+            const Face face = face_of(mesh, c, opposite);
             const Face key  = sorted(face);
             if (n_cells[key] == 1)
               {
@@ -158,11 +170,11 @@ namespace Supple
         return v;
       };
       std::vector<bool> used(mesh.vertices.size());
-      for (const auto &cell : mesh.cells)
-        for (const unsigned int vertex : cell)
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        for (const unsigned int vertex : mesh.cell_vertices(c))
           {
             used[vertex]       = true;
-            root[find(vertex)] = find(cell[0]);
+            root[find(vertex)] = find(mesh.cells[c][0]);
           }
 
       std::map<unsigned int, unsigned int> number;
@@ -199,11 +211,12 @@ namespace Supple
   quality(const SerialMesh &mesh, const std::size_t cell)
   {
     double squares = 0.;
-    for (unsigned int a = 0; a < 4; ++a)
-      for (unsigned int b = 0; b < a; ++b)
-        squares +=
-          mesh.vertices[mesh.cells[cell][a]].distance_square(mesh.vertices[mesh.cells[cell][b]]);
-    return 12. * std::cbrt(std::pow(3. * std::abs(mesh.volume(cell)), 2)) / squares;
+    for (const unsigned int a : mesh.cell_vertices(cell))
+      for (const unsigned int b : mesh.cell_vertices(cell))
+        squares += 0.5 * mesh.vertices[a].distance_square(mesh.vertices[b]);
+    const double size = std::abs(mesh.volume(cell));
+    return (mesh.dimension == 2 ? 4. * std::sqrt(3.) * size : 12. * std::cbrt(9. * size * size)) /
+           squares;
   }
 
 

@@ -11,10 +11,10 @@ namespace Supple
   double
   SerialMesh::volume(const std::size_t cell) const
   {
-    const Point<3> &origin = vertices[cells[cell][0]];
-    return dealii::cross_product_3d(vertices[cells[cell][1]] - origin,
-                                    vertices[cells[cell][2]] - origin) *
-           (vertices[cells[cell][3]] - origin) / 6.;
+    const Point<3> &origin    = vertices[cells[cell][0]];
+    const Tensor<1, 3> normal = dealii::cross_product_3d(vertices[cells[cell][1]] - origin,
+                                                         vertices[cells[cell][2]] - origin);
+    return dimension == 2 ? 0.5 * normal[2] : normal * (vertices[cells[cell][3]] - origin) / 6.;
   }
 
 
@@ -22,10 +22,12 @@ namespace Supple
   {
     /** Appends a cell, turned around if its orientation is negative. */
     void
-    add_cell(SerialMesh &mesh, const std::array<unsigned int, 4> &vertices)
+    add_cell(SerialMesh &mesh,
+             const std::array<unsigned int, 4> &vertices,
+             const unsigned int material = 0)
     {
       mesh.cells.push_back(vertices);
-      mesh.materials.push_back(0);
+      mesh.materials.push_back(material);
       if (mesh.volume(mesh.cells.size() - 1) < 0.)
         std::swap(mesh.cells.back()[1], mesh.cells.back()[2]);
     }
@@ -38,6 +40,7 @@ namespace Supple
     SerialMesh mesh;
     const std::array<unsigned int, 3> &n     = parameters.cubes;
     const std::array<unsigned int, 3> stride = {{1, n[0] + 1, (n[0] + 1) * (n[1] + 1)}};
+    const std::vector<unsigned int> material = parameters.material_of_rows();
 
     for (unsigned int k = 0; k <= n[2]; ++k)
       for (unsigned int j = 0; j <= n[1]; ++j)
@@ -62,7 +65,9 @@ namespace Supple
         for (cube[0] = 0; cube[0] < n[0]; ++cube[0])
           for (const auto &path : paths)
             {
-              add_cell(mesh, {{vertex(0), vertex(path[0]), vertex(path[1]), vertex(7)}});
+              add_cell(mesh,
+                       {{vertex(0), vertex(path[0]), vertex(path[1]), vertex(7)}},
+                       material[cube[1]]);
 
               // Two of its faces lie in a side of the cube: those opposite to corners 0 and 7.
               for (const std::array<unsigned int, 3> &corners :
@@ -80,6 +85,51 @@ namespace Supple
                          2 * d + side});
                   }
             }
+    return mesh;
+  }
+
+
+  SerialMesh
+  rectangle_mesh(const MeshParameters &parameters)
+  {
+    using Split = MeshParameters::Split;
+
+    SerialMesh mesh;
+    mesh.dimension                           = 2;
+    const std::array<unsigned int, 2> &n     = parameters.squares;
+    const std::vector<unsigned int> material = parameters.material_of_rows();
+
+    for (unsigned int j = 0; j <= n[1]; ++j)
+      for (unsigned int i = 0; i <= n[0]; ++i)
+        mesh.vertices.emplace_back(parameters.rectangle_origin[0] +
+                                     parameters.rectangle_size[0] * i / n[0],
+                                   parameters.rectangle_origin[1] +
+                                     parameters.rectangle_size[1] * j / n[1],
+                                   0.);
+
+    constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
+    for (unsigned int j = 0; j < n[1]; ++j)
+      for (unsigned int i = 0; i < n[0]; ++i)
+        {
+          const unsigned int low_left = i + (n[0] + 1) * j, low_right = low_left + 1;
+          const unsigned int high_left = low_left + n[0] + 1, high_right = high_left + 1;
+
+          const bool rising = parameters.split == Split::rising ||
+                              (parameters.split == Split::alternating && (i + j) % 2 == 1);
+          const unsigned int first = rising ? high_right : high_left;
+          const unsigned int third = rising ? low_left : low_right;
+          add_cell(mesh, {{low_left, low_right, first, none}}, material[j]);
+          add_cell(mesh, {{third, high_right, high_left, none}}, material[j]);
+
+          if (i == 0)
+            mesh.boundary.push_back({{{high_left, low_left, none}}, 0});
+          if (i + 1 == n[0])
+            mesh.boundary.push_back({{{low_right, high_right, none}}, 1});
+          if (j == 0)
+            mesh.boundary.push_back({{{low_left, low_right, none}}, 2});
+          if (j + 1 == n[1])
+            mesh.boundary.push_back({{{high_right, high_left, none}}, 3});
+        }
     return mesh;
   }
 

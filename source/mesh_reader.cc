@@ -4,6 +4,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <gmsh.h>
@@ -13,7 +14,8 @@ namespace Supple
 {
   namespace
   {
-    constexpr int gmsh_triangle = 2, gmsh_tetrahedron = 4, gmsh_quadratic_tetrahedron = 11;
+    constexpr int gmsh_line = 1, gmsh_triangle = 2, gmsh_tetrahedron = 4;
+    constexpr int gmsh_quadratic_triangle = 9, gmsh_quadratic_tetrahedron = 11;
 
     /** Gmsh's library is a global thing: it is there while one of these lives. */
     class GmshSession
@@ -153,26 +155,39 @@ namespace Supple
     }
 
 
+    bool
+    has_elements(const int type)
+    {
+      std::vector<int> types;
+      gmsh::model::mesh::getElementTypes(types);
+      return std::count(types.begin(), types.end(), type) > 0;
+    }
+
+
+    /** Tetrahedra, or triangles where there are none; in the order of the file. Those of a physical
+     * group of their dimension get its number. */
     void
     read_cells(SerialMesh &mesh, const std::map<std::size_t, std::size_t> &position)
     {
-      // All cells in the order of the file; those of a physical volume get its number.
+      const int type = mesh.dimension == 3 ? gmsh_tetrahedron : gmsh_triangle;
       std::vector<std::size_t> tags, nodes;
-      gmsh::model::mesh::getElementsByType(gmsh_tetrahedron, tags, nodes);
+      gmsh::model::mesh::getElementsByType(type, tags, nodes);
       std::map<std::size_t, unsigned int> material;
-      for (const auto &[group, entities] : physical_groups(3))
+      for (const auto &[group, entities] : physical_groups(mesh.dimension))
         for (const int entity : entities)
           {
             std::vector<std::size_t> group_tags, group_nodes;
-            gmsh::model::mesh::getElementsByType(gmsh_tetrahedron, group_tags, group_nodes, entity);
+            gmsh::model::mesh::getElementsByType(type, group_tags, group_nodes, entity);
             for (const std::size_t tag : group_tags)
               material.emplace(tag, group);
           }
+      const unsigned int n_nodes = mesh.dimension + 1;
       for (std::size_t c = 0; c < tags.size(); ++c)
         {
           std::array<unsigned int, 4> cell;
-          for (unsigned int a = 0; a < 4; ++a)
-            cell[a] = position.at(nodes[4 * c + a]);
+          cell.fill(dealii::numbers::invalid_unsigned_int);
+          for (unsigned int a = 0; a < n_nodes; ++a)
+            cell[a] = position.at(nodes[n_nodes * c + a]);
           mesh.cells.push_back(cell);
           const auto found = material.find(tags[c]);
           mesh.materials.push_back(found == material.end() ? 0 : found->second);
@@ -183,16 +198,48 @@ namespace Supple
     void
     read_boundary(SerialMesh &mesh, const std::map<std::size_t, std::size_t> &position)
     {
-      for (const auto &[group, entities] : physical_groups(2))
+      const int type             = mesh.dimension == 3 ? gmsh_triangle : gmsh_line;
+      const unsigned int n_nodes = mesh.dimension;
+      for (const auto &[group, entities] : physical_groups(mesh.dimension - 1))
         for (const int entity : entities)
           {
-            const auto triangles = elements(gmsh_triangle, entity, position);
-            for (std::size_t t = 0; t < triangles.size(); t += 3)
-              mesh.boundary.push_back({{{static_cast<unsigned int>(triangles[t]),
-                                         static_cast<unsigned int>(triangles[t + 1]),
-                                         static_cast<unsigned int>(triangles[t + 2])}},
-                                       static_cast<unsigned int>(group)});
+            const auto vertices = elements(type, entity, position);
+            for (std::size_t first = 0; first < vertices.size(); first += n_nodes)
+              {
+                SerialMesh::BoundaryFace face;
+                face.vertices.fill(dealii::numbers::invalid_unsigned_int);
+                std::copy_n(vertices.begin() + first, n_nodes, face.vertices.begin());
+                face.boundary_id = group;
+                mesh.boundary.push_back(face);
+              }
           }
+    }
+
+
+    /** Whether all vertices lie in the plane z = 0. */
+    bool
+    is_flat(const SerialMesh &mesh)
+    {
+      double size = 0., height = 0.;
+      for (const auto &vertex : mesh.vertices)
+        {
+          size   = std::max({size, std::abs(vertex[0]), std::abs(vertex[1])});
+          height = std::max(height, std::abs(vertex[2]));
+        }
+      return height <= 1e-9 * size;
+    }
+
+
+    void
+    refuse_without_cells(const SerialMesh &mesh)
+    {
+      if (has_elements(gmsh_quadratic_tetrahedron) || has_elements(gmsh_quadratic_triangle))
+        throw InputError("its cells are quadratic. Save it with linear ones (Gmsh: -order 1).");
+      std::string text = "it has " + std::to_string(mesh.vertices.size()) +
+                         " vertices but no tetrahedra" + GmshSession::last_complaint() + ".";
+      if (has_elements(gmsh_triangle))
+        text += " Triangles alone are a body only if all vertices lie in the plane z = 0.";
+      throw InputError(text);
     }
   } // namespace
 
@@ -225,18 +272,16 @@ namespace Supple
             mesh.vertices.emplace_back(coordinates[3 * i],
                                        coordinates[3 * i + 1],
                                        coordinates[3 * i + 2]);
+        if (!has_elements(gmsh_tetrahedron))
+          {
+            if (!has_elements(gmsh_triangle) || !is_flat(mesh))
+              refuse_without_cells(mesh);
+            mesh.dimension = 2;
+            for (auto &vertex : mesh.vertices)
+              vertex[2] = 0.;
+          }
         read_cells(mesh, position);
         read_boundary(mesh, position);
-        if (mesh.cells.empty())
-          {
-            std::vector<int> types;
-            gmsh::model::mesh::getElementTypes(types);
-            if (std::count(types.begin(), types.end(), gmsh_quadratic_tetrahedron) > 0)
-              throw InputError(
-                "its tetrahedra are quadratic. Save it with linear ones (Gmsh: -order 1).");
-            throw InputError("it has " + std::to_string(mesh.vertices.size()) +
-                             " vertices but no tetrahedra" + GmshSession::last_complaint() + ".");
-          }
         return mesh;
       }
     catch (const InputError &error)

@@ -192,4 +192,13 @@ namespace Supple
       }
     return list;
   }
+
+
+  unsigned int
+  boundary_id(const std::string &text, const std::string &origin)
+  {
+    if (text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
+      throw InputError(origin + ": '" + text + "' is no boundary id.");
+    return std::stoul(text);
+  }
 } // namespace Supple

@@ -1,10 +1,9 @@
 #include <supple/parameters.h>
 
+#include <supple/entries.h>
 #include <supple/error.h>
 #include <supple/expression.h>
-#include <supple/patterns.h>
 
-#include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
 #include <regex>
@@ -13,176 +12,7 @@ namespace Supple
 {
   using dealii::ParameterHandler;
   namespace Patterns = dealii::Patterns;
-
-  namespace
-  {
-    const double infinity = std::numeric_limits<double>::infinity();
-
-    std::string
-    full_documentation(const std::string &meaning,
-                       const std::string &unit,
-                       const Patterns::PatternBase &pattern)
-    {
-      return meaning + " Unit: " + unit +
-             ". Range: " + pattern.description(Patterns::PatternBase::Text) + ".";
-    }
-
-
-    /** Declares an entry, bound to @p variable, whose documentation tells its unit and range too.
-     */
-    template <class T>
-    void
-    add(ParameterHandler &prm,
-        const std::string &entry,
-        T &variable,
-        const std::string &unit,
-        const Patterns::PatternBase &pattern,
-        const std::string &meaning)
-    {
-      prm.add_parameter(entry, variable, full_documentation(meaning, unit, pattern), pattern);
-    }
-
-
-    /** The same for a choice between names. */
-    template <class Enum>
-    void
-    add_choice(ParameterHandler &prm,
-               const std::string &entry,
-               Enum &variable,
-               const std::vector<std::pair<std::string, Enum>> &choices,
-               const std::string &meaning)
-    {
-      std::string names, preset;
-      for (const auto &[name, value] : choices)
-        {
-          names += (names.empty() ? "" : "|") + name;
-          if (value == variable)
-            preset = name;
-        }
-      const Range pattern = Range::one_of(names);
-      prm.declare_entry(entry, preset, pattern, full_documentation(meaning, "none", pattern));
-      prm.add_action(entry, [&variable, choices](const std::string &chosen) {
-        for (const auto &[name, value] : choices)
-          if (name == chosen)
-            variable = value;
-      });
-    }
-  } // namespace
-
-
-  void
-  MeshParameters::declare_cylinder(ParameterHandler &prm)
-  {
-    const Range positive = Range::between(0, infinity);
-    add(prm, "Cylinder inner radius", inner_radius, "m", positive, "Radius of the cavity.");
-    add(prm, "Cylinder outer radius", outer_radius, "m", positive, "Radius of the outer wall.");
-    add(prm, "Cylinder height", height, "m", positive, "Length along z; the middle is at z = 0.");
-    add(prm,
-        "Cylinder sectors",
-        sectors,
-        "none",
-        Range::whole_number(3),
-        "Number of vertices on each circle.");
-    add(
-      prm,
-      "Cylinder rings",
-      rings,
-      "none",
-      Range::whole_number(2),
-      "Number of cross sections with vertices, both ends included. Boundary ids: 0 (inner wall), 1 "
-      "(outer wall), 2 (bottom), 3 (top).");
-    add(prm,
-        "Cylinder layers",
-        layers,
-        "none",
-        Range::whole_number(1),
-        "Number of layers of cells through the wall.");
-  }
-
-
-  void
-  MeshParameters::declare(ParameterHandler &prm)
-  {
-    const Range positive = Range::between(0, infinity);
-    prm.enter_subsection("Mesh");
-    add_choice(prm,
-               "Shape",
-               shape,
-               {{"box", Shape::box},
-                {"hollow cylinder", Shape::hollow_cylinder},
-                {"file", Shape::file}},
-               "The body: a box, a hollow cylinder about the z axis, or what a mesh file holds.");
-    add(prm,
-        "Box origin",
-        origin,
-        "m",
-        RangeList::three(Range::finite()),
-        "Corner of the box with the smallest coordinates.");
-    add(prm,
-        "Box size",
-        size,
-        "m",
-        RangeList::three(positive),
-        "Lengths of the box along x, y and z.");
-    add(
-      prm,
-      "Box cubes",
-      cubes,
-      "none",
-      RangeList::three(Range::whole_number(1)),
-      "Number of cubes along x, y and z; each is cut into six tetrahedra along its diagonal from "
-      "the "
-      "smallest to the largest coordinates. The faces of the box have the boundary ids 0 (smallest "
-      "x), 1 (largest x), 2, 3 (y), 4, 5 (z).");
-    declare_cylinder(prm);
-    add(prm,
-        "File",
-        file,
-        "none",
-        dealii::Patterns::Anything(),
-        "Mesh file (.msh, .vtk, .unv, .mesh, .bdf), relative to the folder of the scene. Physical "
-        "volumes "
-        "become material ids and physical surfaces boundary ids.");
-    add(prm,
-        "Scale",
-        scale,
-        "m per unit of the file",
-        positive,
-        "All coordinates of a file times this.");
-    prm.add_parameter(
-      "Boundary regions",
-      boundary_regions,
-      "Boundary ids by place, such as 7: z < 0.1; 8: z > 2. A face of the surface whose vertices "
-      "all satisfy the expression gets the id, whatever it had before. Unit: m. Range: id: "
-      "expression of x, y, z, set apart by semicolons.",
-      dealii::Patterns::Anything());
-    prm.leave_subsection();
-  }
-
-
-  void
-  MeshParameters::check(const Parameters &parameters) const
-  {
-    const double n_cubes = double(cubes[0]) * cubes[1] * cubes[2];
-    if (shape == Shape::box && n_cubes > 2e7)
-      throw InputError(parameters.origin("Mesh/Box cubes") + ": there can be 2e7 cubes at most.");
-    const double n_wedges = double(sectors) * rings * layers;
-    if (shape == Shape::hollow_cylinder && n_wedges > 2e7)
-      throw InputError(parameters.origin("Mesh/Cylinder rings") +
-                       ": there can be 2e7 vertices at most.");
-    if (shape == Shape::hollow_cylinder && inner_radius >= outer_radius)
-      throw InputError(parameters.origin("Mesh/Cylinder inner radius") +
-                       ": it must be smaller than the outer radius.");
-    if (shape == Shape::hollow_cylinder &&
-        inner_radius > outer_radius * std::cos(dealii::numbers::PI / sectors))
-      throw InputError(
-        parameters.origin("Mesh/Cylinder sectors") +
-        ": so few that the straight edges of the outer wall would cut through the inner one. "
-        "Take more sectors or a thicker wall.");
-    if (shape == Shape::file && file.empty())
-      throw InputError(parameters.origin("Mesh/File") + ": Shape = file needs a mesh file.");
-  }
-
+  using namespace Entries;
 
   void
   MaterialParameters::declare(ParameterHandler &prm)
@@ -442,6 +272,121 @@ namespace Supple
   }
 
 
+  namespace
+  {
+    using Method = TimeParameters::Method;
+
+    const std::vector<std::pair<std::string, Method>> methods = {
+      {"backward euler", Method::backward_euler},
+      {"implicit backward euler", Method::implicit_backward_euler},
+      {"implicit midpoint", Method::implicit_midpoint},
+      {"sdirk2", Method::sdirk2},
+      {"trbdf2", Method::trbdf2},
+      {"esdirk3", Method::esdirk3},
+      {"esdirk4", Method::esdirk4},
+      {"esdirk5", Method::esdirk5},
+      {"explicit2", Method::explicit2},
+      {"explicit3", Method::explicit3},
+      {"explicit4", Method::explicit4},
+      {"explicit5", Method::explicit5},
+      {"ida", Method::ida}};
+  } // namespace
+
+
+  std::string
+  TimeParameters::method_name() const
+  {
+    for (const auto &[name, candidate] : methods)
+      if (candidate == method)
+        return name;
+    return "";
+  }
+
+
+  bool
+  TimeParameters::is_explicit() const
+  {
+    return method == Method::explicit2 || method == Method::explicit3 ||
+           method == Method::explicit4 || method == Method::explicit5;
+  }
+
+
+  bool
+  TimeParameters::has_variable_steps() const
+  {
+    return adaptive || method == Method::ida;
+  }
+
+
+  double
+  TimeParameters::end() const
+  {
+    return problem == Problem::stationary ? 1. : n_steps * step;
+  }
+
+
+  void
+  TimeParameters::check(const Parameters &parameters) const
+  {
+    if (adaptive &&
+        (method == Method::backward_euler || method == Method::implicit_backward_euler ||
+         method == Method::implicit_midpoint))
+      throw InputError(parameters.origin("Time/Variable steps") + ": " + method_name() +
+                       " has no error estimate to choose steps by. Take ida with Maximum order = 1 "
+                       "(backward Euler with variable steps), trbdf2 or esdirk4.");
+    if (energy_guard == EnergyGuard::reject && has_variable_steps())
+      throw InputError(
+        parameters.origin("Time/Energy guard") +
+        ": only fixed steps can be done again. Take warn, or Variable steps = false.");
+    if (is_explicit() && !parameters.material.lumped && parameters.material.vertex_mass == 0.)
+      throw InputError(
+        parameters.origin("Time/Method") +
+        ": an explicit method needs a diagonal mass matrix: Material/Mass = lumped.");
+  }
+
+
+  void
+  TimeParameters::declare_tolerances(ParameterHandler &prm)
+  {
+    add(prm,
+        "Relative tolerance",
+        relative_tolerance,
+        "none",
+        Range::between(0, 1),
+        "Variable steps: the local error of each displacement and velocity may be this fraction of "
+        "it.");
+    add(prm,
+        "Displacement tolerance",
+        displacement_tolerance,
+        "m",
+        Range::at_least(0),
+        "Variable steps: what is added to that. 0: the relative tolerance times 1 % of the "
+        "diameter.");
+    add(prm,
+        "Velocity tolerance",
+        velocity_tolerance,
+        "m/s",
+        Range::at_least(0),
+        "Variable steps: the same for velocities. 0: that of the displacement over the time a "
+        "pressure "
+        "wave takes through the body.");
+    add(prm,
+        "Longest step",
+        longest_step,
+        "s",
+        Range::at_least(0),
+        "Variable steps: no step is longer. 0: any.");
+    add(
+      prm,
+      "Maximum order",
+      maximum_order,
+      "none",
+      Range::whole_number(1),
+      "ida: highest order of its formulas, 1 to 5. Orders above 2 are not stable for motions that "
+      "hardly decay.");
+  }
+
+
   void
   TimeParameters::declare(ParameterHandler &prm)
   {
@@ -450,28 +395,81 @@ namespace Supple
                "Problem",
                problem,
                {{"dynamic", Problem::dynamic}, {"static", Problem::stationary}},
-               "Motion in time by backward Euler, or equilibrium under the loads at time 1, which "
-               "grow in steps.");
-    add(prm, "Step", step, "s", Range::between(0, infinity), "Time step of a dynamic problem.");
+               "Motion in time, or equilibrium under the loads at time 1, which grow in steps.");
+    add_choice(
+      prm,
+      "Method",
+      method,
+      methods,
+      "How a dynamic problem steps in time. backward euler: first order, one linear system a "
+      "step, the rotations of the cells frozen at its start; it damps. implicit backward euler: "
+      "the same with rotations that follow, by Newton's method. implicit midpoint: second order, "
+      "damps nothing. sdirk2, trbdf2, esdirk3, esdirk4, esdirk5: diagonally implicit Runge-Kutta "
+      "methods of that order. explicit2 to explicit5: Runge-Kutta methods for soft or tiny "
+      "bodies with lumped mass. ida: backward differentiation with variable steps.");
     add(prm,
-        "Steps",
-        n_steps,
-        "none",
-        Range::whole_number(1),
-        "Number of time steps, or of load steps of a static problem.");
+        "Step",
+        step,
+        "s",
+        Range::between(0, infinity),
+        "Time step of a dynamic problem; with variable steps the first one that is tried.");
+    add(
+      prm,
+      "Steps",
+      n_steps,
+      "none",
+      Range::whole_number(1),
+      "Number of time steps, or of load steps of a static problem. With variable steps the motion "
+      "ends at this many times Step all the same.");
+    add_choice(
+      prm,
+      "Variable steps",
+      adaptive,
+      {{"true", true}, {"false", false}},
+      "Whether the step follows from the tolerances below. Methods with an error estimate: sdirk2, "
+      "trbdf2, esdirk3 to esdirk5, explicit2 to explicit5; ida always.");
+    declare_tolerances(prm);
     add(prm,
         "Newton tolerance",
         newton_tolerance,
         "none",
         Range::between(0, 1),
         "A static step is done when the forces out of balance are below this fraction of the loads "
-        "and reactions.");
+        "and reactions; a stage of a fixed step when its correction is below this fraction of the "
+        "motion "
+        "or of 1 % of the body's diameter.");
     add(prm,
         "Newton iterations",
         newton_limit,
         "none",
         Range::whole_number(1),
-        "A static step that needs more has failed.");
+        "A static step, or a stage of a fixed step, that needs more has failed.");
+    add_choice(
+      prm,
+      "Tangent",
+      tangent,
+      {{"auto", TangentChoice::automatic},
+       {"frozen", TangentChoice::frozen},
+       {"consistent", TangentChoice::consistent},
+       {"definite", TangentChoice::definite}},
+      "The operator of Newton's method for polar rotations: as if the rotations stayed what they "
+      "are, the derivative of the force, or its projection cell by cell to one that is not "
+      "indefinite. auto takes the derivative, and the projection where that fails.");
+    add(prm,
+        "Retries",
+        n_retries,
+        "none",
+        Range::whole_number(0),
+        "A fixed step that fails is tried again in halves, at most this many times.");
+    add_choice(
+      prm,
+      "Energy guard",
+      energy_guard,
+      {{"off", EnergyGuard::off}, {"warn", EnergyGuard::warn}, {"reject", EnergyGuard::reject}},
+      "What is done when the total energy rises by more than the work of a step: nothing, a "
+      "warning "
+      "at the end, or the step is done again, backward euler with rotations that follow, and then "
+      "in halves (fixed steps only).");
     prm.leave_subsection();
   }
 
@@ -568,7 +566,7 @@ namespace Supple
         history,
         "none",
         Range::one_of("true|false"),
-        "Whether history.csv and probes.csv are written.");
+        "Whether history.csv, probes.csv and profiles are written.");
     prm.leave_subsection();
   }
 
@@ -597,6 +595,26 @@ namespace Supple
                       "name: expression of x, "
                       "y, z, set apart by semicolons.",
                       any);
+    prm.add_parameter("Profiles",
+                      profiles,
+                      "Named boundaries whose shape is written, such as skin: 3, into "
+                      "profile_skin.csv: for each vertex its distance from the center below, its "
+                      "depth -uy, and its deformed position. Unit: none. Range: name: boundary id, "
+                      "set apart by semicolons.",
+                      any);
+    add(prm,
+        "Profile center",
+        profile_center,
+        "m",
+        RangeList::three(Range::finite()),
+        "Where the needle is: distances in profiles are measured from there along x and z.");
+    add(prm,
+        "Profile every",
+        profile_every,
+        "steps",
+        Range::whole_number(1),
+        "Number of steps from profile to profile. The first and the last state are always "
+        "written.");
     prm.leave_subsection();
   }
 
@@ -652,6 +670,7 @@ namespace Supple
   Parameters::declare(ParameterHandler &prm)
   {
     mesh.declare(prm);
+    plane.declare(prm);
     material.declare(prm);
     corotation.declare(prm);
     damping.declare(prm);
@@ -664,6 +683,36 @@ namespace Supple
     solver.declare(prm);
     output.declare(prm);
     probes.declare(prm);
+    checkpoint.declare(prm);
+  }
+
+
+  void
+  CheckpointParameters::declare(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Checkpoint");
+    add(prm,
+        "Every",
+        every,
+        "steps",
+        Range::whole_number(0),
+        "A checkpoint, from which the run can go on, is written after so many steps; 0: not by "
+        "steps.");
+    add(prm,
+        "Minutes",
+        minutes,
+        "min",
+        Range::at_least(0),
+        "A checkpoint is written after so much time on the clock; 0: not by the clock. Where "
+        "either is "
+        "set, Ctrl-C and SIGTERM write one too.");
+    add_choice(
+      prm,
+      "Resume",
+      resume,
+      {{"auto", true}, {"never", false}},
+      "auto: go on from the checkpoint in the output folder, if there is one. never: begin anew.");
+    prm.leave_subsection();
   }
 
 
@@ -675,6 +724,8 @@ namespace Supple
                        ": 3 lambda + 2 mu must be positive, or the body gives way to pressure.");
 
     mesh.check(*this);
+    time.check(*this);
+    plane.check(*this);
     if (time.problem == TimeParameters::Problem::stationary && damping.any())
       throw InputError(origin("Time/Problem") +
                        ": a static problem knows no velocity; take the damping out of the scene.");

@@ -134,6 +134,13 @@ namespace Supple
 
 
   RangeList
+  RangeList::two(const Range &range)
+  {
+    return {"two values set apart by commas, each " + range.description(), range, 2, 2};
+  }
+
+
+  RangeList
   RangeList::three(const Range &range)
   {
     return {"three values set apart by commas, each " + range.description(), range, 3, 3};

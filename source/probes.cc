@@ -23,11 +23,9 @@ namespace Supple
 
     const std::string boundaries = parameters.origin("Probes/Boundaries");
     for (const auto &[name, text] : named_list(wanted.boundaries, boundaries))
-      {
-        if (text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
-          throw InputError(boundaries + ": '" + text + "' is no boundary id.");
-        add_nodes(name, "boundary " + text, body.boundary_nodes(std::stoul(text), boundaries));
-      }
+      add_nodes(name,
+                "boundary " + text,
+                body.boundary_nodes(boundary_id(text, boundaries), boundaries));
 
     const std::string regions = parameters.origin("Probes/Regions");
     for (const auto &[name, text] : named_list(wanted.regions, regions))

@@ -22,9 +22,8 @@ namespace Supple
   }
 
 
-  Progress::Progress(const unsigned int n_steps, const bool wanted, const bool plain)
-    : n_steps(n_steps)
-    , active(wanted && isatty(STDOUT_FILENO))
+  Progress::Progress(const bool wanted, const bool plain)
+    : active(wanted && isatty(STDOUT_FILENO))
     , plain(plain)
     , start(Clock::now())
     , last(start)
@@ -33,30 +32,28 @@ namespace Supple
 
 
   void
-  Progress::update(const unsigned int step)
+  Progress::update(const unsigned int step, const double part_done)
   {
     if (!active)
       return;
     const auto now = Clock::now();
-    if (plain ? 10. * step < double(next_tenth) * n_steps
-              : (now - last < std::chrono::milliseconds(200) && step < n_steps))
+    if (plain ? 10. * part_done < next_tenth
+              : (now - last < std::chrono::milliseconds(200) && part_done < 1.))
       return;
-    while (10. * step >= double(next_tenth) * n_steps)
+    while (10. * part_done >= next_tenth)
       ++next_tenth;
     last = now;
 
     const double seconds = std::chrono::duration<double>(now - start).count();
-    const double rate    = step / seconds;
     char text[128];
     std::snprintf(text,
                   sizeof(text),
-                  "%s%3.0f %%  step %u of %u  %.3g steps/s  %s left%s",
+                  "%s%3.0f %%  step %u  %.3g steps/s  %s left%s",
                   plain ? "" : "\r",
-                  100. * step / n_steps,
+                  100. * part_done,
                   step,
-                  n_steps,
-                  rate,
-                  readable_duration((n_steps - step) / rate).c_str(),
+                  step / seconds,
+                  readable_duration(seconds * (1. - part_done) / part_done).c_str(),
                   plain ? "\n" : "\033[K");
     std::cout << text << std::flush;
     shown = !plain;

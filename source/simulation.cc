@@ -7,6 +7,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/physics/transformations.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -33,26 +35,37 @@ namespace Supple
     , constraints(body, parameters)
     , loads(body, parameters)
     , probes(body, parameters)
+    , profiles(body, parameters)
     , implicit_operator(body, constraints, parameters, effort)
     , solver(LinearSolver::create(implicit_operator, parameters, effort))
     , diagnostics(body, loads, stationary)
-    , progress(parameters.time.n_steps, talks, Utilities::MPI::n_mpi_processes(communicator) > 1)
+    , progress(talks, Utilities::MPI::n_mpi_processes(communicator) > 1)
+    , checkpoint(body, parameters, folder)
   {
-    if (stationary && constraints.n_pieces_free > 0 && constraints.n_held > 0)
+    if (stationary && constraints.n_pieces_free > 0 &&
+        constraints.n_pieces_free < mesh.report.n_pieces)
       throw InputError(
         "A static scene needs a body that is held: " + std::to_string(constraints.n_pieces_free) +
         " of its " + std::to_string(mesh.report.n_pieces) +
         " pieces, which do not hang together, are not held anywhere.");
     if (stationary && constraints.n_free_rigid_motions > 0)
-      throw InputError("A static scene needs a body that is held: " +
-                       std::to_string(constraints.n_free_rigid_motions) +
-                       " of its six rigid motions are free, so that the stiffness is singular. "
-                       "Hold a boundary or a "
-                       "region (subsection Constraints), or make the problem dynamic.");
+      throw InputError("A static scene needs a body that is held: " + free_rigid_motions() +
+                       ", so that the stiffness is singular. Hold a boundary or a region "
+                       "(subsection Constraints), or make the problem dynamic.");
     create_initial_state();
     integrator         = TimeIntegrator::create(model(), state.block(0));
     start_displacement = state.block(0);
     setup_seconds      = seconds_since_start();
+  }
+
+
+  std::string
+  Simulation::free_rigid_motions() const
+  {
+    if (constraints.n_rigid_motions == 1)
+      return "its one rigid motion, along its axis, is free";
+    return std::to_string(constraints.n_free_rigid_motions) + " of its " +
+           (constraints.n_rigid_motions == 6 ? "six" : "three") + " rigid motions are free";
   }
 
 
@@ -67,6 +80,13 @@ namespace Supple
   Simulation::seconds_since_start() const
   {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+
+  double
+  Simulation::seconds_of_run() const
+  {
+    return seconds_before + seconds_since_start() - setup_seconds;
   }
 
 
@@ -114,7 +134,7 @@ namespace Supple
   Simulation::warnings() const
   {
     std::vector<std::string> list = mesh.report.warnings;
-    if (constraints.n_pieces_free > 0 && constraints.n_held > 0)
+    if (constraints.n_pieces_free > 0 && constraints.n_pieces_free < mesh.report.n_pieces)
       list.push_back(std::to_string(constraints.n_pieces_free) + " of the " +
                      std::to_string(mesh.report.n_pieces) + " pieces are not held anywhere.");
     if (body.rotation == RotationMethod::gram_schmidt)
@@ -122,14 +142,19 @@ namespace Supple
         "Gram-Schmidt rotations have no elastic energy: 'elastic' is the energy of the same "
         "formula, and "
         "'dissipated' need not grow. They depend on the axes.");
+    if (diagnostics.extremes().energy_rises > 0 &&
+        parameters.time.energy_guard != TimeParameters::EnergyGuard::off)
+      list.push_back("In " + std::to_string(diagnostics.extremes().energy_rises) +
+                     " steps the total energy rose by more than the work that was done.");
     double poisson = 0.;
     for (const auto &[id, n_cells] : mesh.materials)
       poisson = std::max(poisson, body.material(id).poisson());
-    if (poisson > 0.45)
+    if (poisson > 0.45 && mesh.section.geometry != Geometry::plane_stress)
       {
         std::ostringstream text;
-        text << "Linear tetrahedra are too stiff (they lock) at a Poisson ratio above 0.45; it is "
-             << poisson << ".";
+        text << "Linear " << mesh.cell_name()
+             << " are too stiff (they lock) at a Poisson ratio above 0.45; it is " << poisson
+             << ".";
         list.push_back(text.str());
       }
     return list;
@@ -189,17 +214,39 @@ namespace Supple
   }
 
 
+  std::string
+  Simulation::section_in_words() const
+  {
+    std::ostringstream thickness;
+    thickness << mesh.section.thickness << " m thick, ";
+    switch (mesh.section.geometry)
+      {
+        case Geometry::plane_strain:
+          return "plane strain, " + thickness.str();
+        case Geometry::plane_stress:
+          return "plane stress, " + thickness.str();
+        case Geometry::axisymmetric:
+          return "axisymmetric, ";
+        default:
+          return "";
+      }
+  }
+
+
   void
   Simulation::print_description(const bool in_detail) const
   {
     if (!talks)
       return;
     std::ostringstream time;
-    time << integrator->name() << ", " << parameters.time.n_steps;
-    if (!stationary)
-      time << " steps of " << parameters.time.step << " s";
+    time << integrator->name() << ", ";
+    if (stationary)
+      time << parameters.time.n_steps << " load steps";
+    else if (parameters.time.has_variable_steps())
+      time << "up to " << integrator->end << " s, relative tolerance "
+           << parameters.time.relative_tolerance;
     else
-      time << " load steps";
+      time << parameters.time.n_steps << " steps of " << parameters.time.step << " s";
     const std::array<const char *, 3> rotations = {
       {"linear elasticity", "corotational, Gram-Schmidt", "corotational, polar"}};
     std::ostringstream volume;
@@ -207,16 +254,16 @@ namespace Supple
 
     std::cout << "Supple " << SUPPLE_VERSION << ", scene " << parameters.scene_name << '\n';
     line("body",
-         std::to_string(mesh.n_cells) + " tetrahedra, " + std::to_string(mesh.n_vertices) +
-           " vertices in " + mesh.extent() + " m, " + volume.str() + " m^3");
+         std::to_string(mesh.n_cells) + " " + mesh.cell_name() + ", " +
+           std::to_string(mesh.n_vertices) + " vertices in " + mesh.extent() + " m, " +
+           volume.str() + " m^3");
     if (in_detail)
       print_mesh_details();
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     line("unknowns",
-         std::to_string(body.dof_handler.n_dofs()) + ", of which " +
-           std::to_string(constraints.n_held) + " are held; " +
-           (n_ranks == 1 ? "1 process" : std::to_string(n_ranks) + " processes"));
-    line("model", rotations[static_cast<unsigned int>(body.rotation)]);
+         std::to_string(body.n_dofs()) + ", of which " + std::to_string(constraints.n_held) +
+           " are held; " + (n_ranks == 1 ? "1 process" : std::to_string(n_ranks) + " processes"));
+    line("model", section_in_words() + rotations[static_cast<unsigned int>(body.rotation)]);
     line("time", time.str());
     line("solver", solver->name() + " (" + solver->reason + ")");
     for (const std::string &text : probes.descriptions())
@@ -230,29 +277,25 @@ namespace Supple
   void
   Simulation::open_output()
   {
-    const bool root = Utilities::MPI::this_mpi_process(communicator) == 0;
+    if (parameters.output.frames != OutputParameters::Frames::none)
+      frames = std::make_unique<Frames>(body, parameters.output, folder);
+    resume();
+
     std::string problem;
-    if (root)
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
       try
         {
-          namespace fs = std::filesystem;
-          fs::create_directories(fs::path(folder) / "solution");
-          for (const char *name : {"solution.pvd", "history.csv", "probes.csv", "summary.json"})
-            fs::remove(fs::path(folder) / name);
-          for (const auto &entry : fs::directory_iterator(fs::path(folder) / "solution"))
-            if (entry.path().filename().string().rfind("frame_", 0) == 0)
-              fs::remove(entry.path()); // of an earlier run
+          if (!resumed)
+            clear_folder();
           std::ostringstream used;
           parameters.print(used);
           write_whole_file(folder + "/parameters.prm", used.str());
           if (parameters.output.history)
-            {
-              history =
-                std::make_unique<CsvFile>(folder + "/history.csv", Measurement::column_names());
-              if (!probes.empty())
-                probe_history =
-                  std::make_unique<CsvFile>(folder + "/probes.csv", probes.column_names());
-            }
+            open_tables();
+        }
+      catch (const InputError &error)
+        {
+          problem = error.what();
         }
       catch (const std::exception &exception)
         {
@@ -262,8 +305,100 @@ namespace Supple
     problem = Utilities::MPI::broadcast(communicator, problem);
     if (!problem.empty())
       throw InputError(problem);
-    if (parameters.output.frames != OutputParameters::Frames::none)
-      frames = std::make_unique<Frames>(body, parameters.output, folder);
+  }
+
+
+  void
+  Simulation::clear_folder() const
+  {
+    namespace fs = std::filesystem;
+    fs::create_directories(fs::path(folder) / "solution");
+    for (const char *name : {"solution.pvd",
+                             "history.csv",
+                             "probes.csv",
+                             "summary.json",
+                             "checkpoint.cbor",
+                             "checkpoint.previous.cbor"})
+      fs::remove(fs::path(folder) / name);
+    for (const auto &entry : fs::directory_iterator(folder))
+      if (entry.path().filename().string().rfind("profile_", 0) == 0 &&
+          entry.path().extension() == ".csv")
+        fs::remove(entry.path());
+    for (const auto &entry : fs::directory_iterator(fs::path(folder) / "solution"))
+      if (entry.path().filename().string().rfind("frame_", 0) == 0)
+        fs::remove(entry.path()); // of an earlier run
+  }
+
+
+  void
+  Simulation::open_tables()
+  {
+    const auto open = [&](const std::string &name, const std::vector<std::string> &columns) {
+      const std::string file = folder + "/" + name;
+      return resumed ? std::make_unique<CsvFile>(file, step + 1)
+                     : std::make_unique<CsvFile>(file, columns);
+    };
+    profiles.open(folder, resumed);
+    history = open("history.csv", Measurement::column_names());
+    if (!probes.empty())
+      probe_history = open("probes.csv", probes.column_names());
+  }
+
+
+  std::vector<Vector *>
+  Simulation::kept_vectors()
+  {
+    std::vector<Vector *> vectors;
+    for (unsigned int b = 0; b < state.n_blocks(); ++b)
+      vectors.push_back(&state.block(b));
+    if (frames)
+      vectors.push_back(&frames->displacement_of_last());
+    return vectors;
+  }
+
+
+  void
+  Simulation::resume()
+  {
+    if (!parameters.checkpoint.resume)
+      return;
+    const auto saved = checkpoint.read(kept_vectors());
+    if (!saved)
+      return;
+    resumed        = true;
+    step           = saved->at("step");
+    now.step       = step;
+    now.time       = saved->at("time");
+    error_estimate = saved->at("error_estimate");
+    largest_motion = saved->at("largest_motion");
+    seconds_before = saved->at("seconds");
+    integrator->load(saved->at("integrator"));
+    body.update_rotations(state.block(0), effort);
+    if (writes)
+      diagnostics.load(saved->at("diagnostics"));
+    if (frames)
+      frames->load(saved->at("frames"));
+    profiles.load(saved->at("profiles"));
+  }
+
+
+  void
+  Simulation::write_checkpoint()
+  {
+    const PhaseTimer timer(effort, Phase::output);
+    nlohmann::json rest = {{"step", step},
+                           {"time", now.time},
+                           {"error_estimate", error_estimate},
+                           {"largest_motion", largest_motion},
+                           {"seconds", seconds_of_run()},
+                           {"integrator", integrator->save()},
+                           {"profiles", profiles.save()}};
+    if (writes)
+      rest["diagnostics"] = diagnostics.save();
+    if (frames)
+      rest["frames"] = frames->save();
+    const auto vectors = kept_vectors();
+    checkpoint.write(step, {vectors.begin(), vectors.end()}, rest);
   }
 
 
@@ -274,7 +409,8 @@ namespace Supple
     print_description(false);
     try
       {
-        record(StepReport());
+        if (!resumed)
+          record(StepReport());
         time_loop();
       }
     catch (const InterruptedError &)
@@ -286,8 +422,8 @@ namespace Supple
         progress.clear();
         const std::string time = stationary ? "load factor " : "time ";
         std::ostringstream text;
-        text << "Step " << step + 1 << " (" << time << now.time << " to " << time_of(step + 1)
-             << ") failed: " << error.what() << ". The results up to " << time << now.time
+        text << "Step " << step + 1 << " (from " << time << now.time
+             << " on) failed: " << error.what() << ". The results up to " << time << now.time
              << " are in " << folder << ".";
         finish("failed: " + text.str());
         throw ComputationError(text.str());
@@ -303,13 +439,17 @@ namespace Supple
   Simulation::time_loop()
   {
     const InterruptGuard interrupt;
-    while (step < parameters.time.n_steps)
+    while (!integrator->finished())
       {
         advance();
-        progress.update(step);
-        if (step < parameters.time.n_steps && interrupt.requested(communicator))
+        progress.update(step, now.time / integrator->end);
+        if (parameters.checkpoint.wanted() && checkpoint.due(step))
+          write_checkpoint();
+        if (!integrator->finished() && interrupt.requested(communicator))
           {
             progress.clear();
+            if (parameters.checkpoint.wanted())
+              write_checkpoint();
             finish("interrupted");
             throw InterruptedError("Interrupted after step " + std::to_string(step) +
                                    "; the results so far are in " + folder + ".");
@@ -320,21 +460,13 @@ namespace Supple
   }
 
 
-  double
-  Simulation::time_of(const unsigned int step) const
-  {
-    return stationary ? double(step) / parameters.time.n_steps : step * parameters.time.step;
-  }
-
-
   void
   Simulation::advance()
   {
-    const double time       = time_of(step + 1);
-    const StepReport report = integrator->advance(state, time, writes);
+    const StepReport report = integrator->advance(state, writes);
     ++step;
     now.step = step;
-    now.time = time;
+    now.time = report.time;
     error_estimate += report.local_error;
     largest_motion =
       std::max(largest_motion, largest_vertex_distance(state.block(0), start_displacement));
@@ -349,8 +481,7 @@ namespace Supple
       return;
     {
       const PhaseTimer timer(effort, Phase::diagnostics);
-      now =
-        diagnostics.measure(step, now.time, seconds_since_start() - setup_seconds, state, report);
+      now = diagnostics.measure(step, now.time, seconds_of_run(), state, report);
     }
     const PhaseTimer timer(effort, Phase::output);
     if (history)
@@ -363,6 +494,8 @@ namespace Supple
         if (probe_history)
           probe_history->write_row(row);
       }
+    if (parameters.output.history)
+      profiles.write(step, now.time, state.block(0), false);
     if (frames && frames->due(state, now))
       frames->write(state, now);
   }
@@ -371,6 +504,8 @@ namespace Supple
   void
   Simulation::finish(const std::string &status)
   {
+    if (parameters.output.history)
+      profiles.write(step, now.time, state.block(0), true);
     if (frames)
       {
         const PhaseTimer timer(effort, Phase::output);
@@ -382,7 +517,7 @@ namespace Supple
     summary.integrator     = integrator->name();
     summary.steps          = step;
     summary.setup_seconds  = setup_seconds;
-    summary.run_seconds    = seconds_since_start() - setup_seconds;
+    summary.run_seconds    = seconds_of_run();
     summary.error_estimate = error_estimate;
     summary.largest_motion = largest_motion;
     summary.frames         = frames ? frames->n_written() : 0;
@@ -390,6 +525,10 @@ namespace Supple
     summary.probes         = parameters.output.history && !probes.empty();
     summary.observed       = writes;
     summary.last           = now;
+    summary.extremes       = diagnostics.extremes();
+    Vector rest;
+    body.initialize(rest);
+    summary.distance_from_rest = largest_vertex_distance(state.block(0), rest);
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
       write_whole_file(folder + "/summary.json", summary.to_json(model()));
 
@@ -397,7 +536,7 @@ namespace Supple
       {
         std::cout << "done: " << step << " steps in " << readable_duration(summary.run_seconds)
                   << ", " << std::lround(step / summary.run_seconds) << " steps/s";
-        if (implicit_operator.has_mass())
+        if (implicit_operator.has_mass() && std::isfinite(error_estimate))
           std::cout << "; sum of local errors " << error_estimate << " m beside a motion of "
                     << largest_motion << " m";
         std::cout << "; " << summary.frames << " frames in " << folder << std::endl;

@@ -4,13 +4,15 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <sstream>
 
 namespace Supple
 {
   StaticEquilibrium::StaticEquilibrium(const Model &model)
-    : TimeIntegrator(model)
+    : TimeIntegrator(model, 1.)
   {
     model.body.initialize(residual);
     model.body.initialize(correction);
@@ -26,6 +28,21 @@ namespace Supple
   {
     return model.body.rotation == RotationMethod::none ? "static, one linear solution a load step"
                                                        : "static, Newton's method in load steps";
+  }
+
+
+  nlohmann::json
+  StaticEquilibrium::save()
+  {
+    return {{"time", time}, {"done", n_done}};
+  }
+
+
+  void
+  StaticEquilibrium::load(const nlohmann::json &saved)
+  {
+    time   = saved.at("time");
+    n_done = saved.at("done");
   }
 
 
@@ -81,12 +98,14 @@ namespace Supple
 
 
   StepReport
-  StaticEquilibrium::advance(State &state, const double load_factor, const bool observed)
+  StaticEquilibrium::advance(State &state, const bool observed)
   {
-    Vector &u          = state.block(0);
-    const Vector start = u;
+    Vector &u                = state.block(0);
+    const Vector start       = u;
+    const double load_factor = double(n_done + 1) / model.parameters.time.n_steps;
     StepReport report;
-    report.dt = load_factor - last_load_factor;
+    report.time = load_factor;
+    report.dt   = load_factor - time;
     try
       {
         find_equilibrium(u, load_factor, report);
@@ -97,7 +116,8 @@ namespace Supple
         model.body.update_rotations(u, model.effort);
         throw;
       }
-    last_load_factor = load_factor;
+    time = load_factor;
+    ++n_done;
 
     if (observed)
       {
@@ -114,11 +134,48 @@ namespace Supple
 
 
   void
+  StaticEquilibrium::assemble(const Vector &u, const Tangent tangent)
+  {
+    model.body.update_rotation_stiffness(tangent, u, model.effort);
+    model.implicit_operator.assemble_stiffness();
+    model.solver.prepare(u);
+  }
+
+
+  unsigned int
+  StaticEquilibrium::find_correction(const Vector &u)
+  {
+    using Choice        = TimeParameters::TangentChoice;
+    const Choice choice = model.parameters.time.tangent;
+    if (model.body.rotation != RotationMethod::polar || choice == Choice::frozen)
+      {
+        assemble(u, Tangent::frozen);
+        return model.solver.solve(correction, free_residual);
+      }
+    if (choice != Choice::definite)
+      try
+        {
+          assemble(u, Tangent::consistent);
+          const unsigned int n_iterations = model.solver.solve(correction, free_residual);
+          if (choice == Choice::consistent || free_residual * correction > 0.)
+            return n_iterations;
+        }
+      catch (const ComputationError &)
+        {
+          if (choice == Choice::consistent)
+            throw;
+        }
+    assemble(u, Tangent::definite);
+    return model.solver.solve(correction, free_residual);
+  }
+
+
+  void
   StaticEquilibrium::find_equilibrium(Vector &u, const double load_factor, StepReport &report)
   {
-    const TimeParameters &time = model.parameters.time;
-    const bool constant        = model.body.rotation == RotationMethod::none; // the operator
-    const bool linear          = constant && !model.loads.follow();
+    const TimeParameters &settings = model.parameters.time;
+    const bool constant            = model.body.rotation == RotationMethod::none; // the operator
+    const bool linear              = constant && !model.loads.follow();
 
     if (model.constraints.move())
       model.constraints.set_displacement(u, load_factor);
@@ -132,24 +189,26 @@ namespace Supple
         const double size = load_factor * model.loads.force(1., u).l2_norm() + residual.l2_norm();
         const double balance = free_residual.l2_norm();
         if (linear ? report.newton_iterations == 1
-                   : balance <= time.newton_tolerance * size + force_accuracy)
+                   : balance <= settings.newton_tolerance * size + force_accuracy)
           return;
-        if (report.newton_iterations == time.newton_limit)
+        if (report.newton_iterations == settings.newton_limit)
           {
             std::ostringstream text;
-            text << "Newton's method is not done after " << time.newton_limit
+            text << "Newton's method is not done after " << settings.newton_limit
                  << " iterations: the forces are out of balance by " << balance / size
                  << " of the loads and reactions. More load steps (Time/Steps) may help";
             throw ComputationError(text.str());
           }
 
-        if (!constant || !prepared)
+        if (constant)
           {
-            model.implicit_operator.assemble_stiffness();
-            model.solver.prepare(u);
+            if (!prepared)
+              assemble(u, Tangent::frozen);
             prepared = true;
+            report.linear_iterations += model.solver.solve(correction, free_residual);
           }
-        report.linear_iterations += model.solver.solve(correction, free_residual);
+        else
+          report.linear_iterations += find_correction(u);
         add_correction(u, load_factor);
         ++report.newton_iterations;
         ++model.effort.newton_iterations;

@@ -60,7 +60,7 @@ namespace Supple
 
     json["cells"]    = model.body.mesh.n_cells;
     json["vertices"] = model.body.mesh.n_vertices;
-    json["dofs"]     = model.body.dof_handler.n_dofs();
+    json["dofs"]     = model.body.n_dofs();
     json["held"]     = model.constraints.n_held;
     json["ranks"]    = dealii::Utilities::MPI::n_mpi_processes(model.body.mesh.communicator);
     json["method"]   = integrator;
@@ -73,6 +73,7 @@ namespace Supple
                         {"newton_iterations", effort.newton_iterations}};
 
     json["steps"]            = steps;
+    json["rejected_steps"]   = effort.rejected_steps;
     json["steps_per_second"] = run_seconds > 0. ? steps / run_seconds : 0.;
     Json &seconds            = json["seconds"];
     seconds["setup"]         = setup_seconds;
@@ -81,16 +82,26 @@ namespace Supple
       seconds[phase_names[phase]] = effort.seconds[phase];
 
     if (model.implicit_operator.has_mass())
-      json["error_estimate"] = {{"sum_of_local_errors", error_estimate},
-                                {"largest_motion", largest_motion},
-                                {"relative",
-                                 largest_motion > 0. ? error_estimate / largest_motion : 0.}};
+      {
+        // Not a number, where the method has no estimate, becomes null.
+        json["error_estimate"] = {{"sum_of_local_errors", error_estimate},
+                                  {"largest_motion", largest_motion},
+                                  {"relative",
+                                   largest_motion > 0. ? error_estimate / largest_motion : 0.}};
+      }
     if (observed)
-      json["last"] = energies(last);
-    json["built"]    = what_was_built(*this, model);
-    json["versions"] = {{"supple", SUPPLE_VERSION},
-                        {"deal.II", DEAL_II_PACKAGE_VERSION},
-                        {"SUNDIALS", SUNDIALS_VERSION}};
+      {
+        json["last"]     = energies(last);
+        json["extremes"] = {{"energy_rises", extremes.energy_rises},
+                            {"most_inverted", extremes.most_inverted},
+                            {"min_volume_ratio", extremes.min_volume_ratio},
+                            {"max_volume_ratio", extremes.max_volume_ratio}};
+      }
+    json["distance_from_rest"] = distance_from_rest;
+    json["built"]              = what_was_built(*this, model);
+    json["versions"]           = {{"supple", SUPPLE_VERSION},
+                                  {"deal.II", DEAL_II_PACKAGE_VERSION},
+                                  {"SUNDIALS", SUNDIALS_VERSION}};
     return json.dump(2) + "\n";
   }
 } // namespace Supple

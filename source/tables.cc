@@ -19,15 +19,55 @@ namespace Supple
   }
 
 
+  namespace
+  {
+    void
+    cut_after_rows(const std::string &file, const unsigned long n_rows)
+    {
+      std::ifstream stream(file);
+      std::ostringstream kept;
+      std::string line;
+      for (unsigned long row = 0; row <= n_rows; ++row)
+        {
+          if (!std::getline(stream, line))
+            throw InputError(file + " has fewer rows than the checkpoint beside it knows of: " +
+                             "begin anew with Checkpoint/Resume = never.");
+          kept << line << '\n';
+        }
+      write_whole_file(file, kept.str());
+    }
+  } // namespace
+
+
+  CsvFile::CsvFile(const std::string &file, const unsigned long n_rows)
+    : file(file)
+  {
+    cut_after_rows(file, n_rows);
+    stream.open(file, std::ios::app);
+    if (!stream)
+      throw WriteError(file + " can't be written.");
+  }
+
+
   void
   CsvFile::write_row(const std::vector<double> &values)
   {
-    std::ostringstream row; // the row goes to the disk in one piece
-    row.precision(15);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      row << (i == 0 ? "" : ",") << values[i];
-    row << '\n';
-    stream << row.str() << std::flush;
+    write_rows({values});
+  }
+
+
+  void
+  CsvFile::write_rows(const std::vector<std::vector<double>> &rows)
+  {
+    std::ostringstream text; // the rows go to the disk in one piece
+    text.precision(15);
+    for (const std::vector<double> &row : rows)
+      {
+        for (std::size_t i = 0; i < row.size(); ++i)
+          text << (i == 0 ? "" : ",") << row[i];
+        text << '\n';
+      }
+    stream << text.str() << std::flush;
     if (!stream)
       throw WriteError(file + " can't be written any more; is the disk full?");
   }

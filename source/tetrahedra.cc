@@ -51,6 +51,21 @@ namespace Supple
         }
       return six_volumes / 6.;
     }
+
+
+    /** The same for the three of a triangle in the plane z = 0; returns the area. */
+    double
+    shape_gradients_in_plane(const std::array<Vector3, 4> &X, std::array<Vector3, 4> &g)
+    {
+      const Vector3 d1 = difference(X[1], X[0]), d2 = difference(X[2], X[0]);
+      const double two_areas = d1[0] * d2[1] - d1[1] * d2[0];
+
+      g[1] = {{d2[1] / two_areas, -d2[0] / two_areas, 0.}};
+      g[2] = {{-d1[1] / two_areas, d1[0] / two_areas, 0.}};
+      g[0] = {{-g[1][0] - g[2][0], -g[1][1] - g[2][1], 0.}};
+      g[3] = {{0., 0., 0.}};
+      return two_areas / 2.;
+    }
   } // namespace
 
 
@@ -58,40 +73,68 @@ namespace Supple
                          const unsigned int n_owned,
                          const std::vector<Tetrahedron> &cells,
                          const bool lumped_mass,
-                         const double vertex_mass)
+                         const double vertex_mass,
+                         const Section &section)
     : n_cells(cells.size())
     , n_owned(n_owned)
     , lumped_mass(lumped_mass)
     , vertex_mass(vertex_mass)
+    , section(section)
+    , n_nodes(section.plane() ? 3 : 4)
+    , pair_share(1. / (n_nodes * (n_nodes + 1)))
     , batches((cells.size() + n_lanes - 1) / n_lanes, Batch{}) // empty lanes: zero volume, node 0
+    , hoops(section.axisymmetric() ? batches.size() : 0, Hoop{})
     , positions(positions)
   {
     for (std::size_t c = 0; c < n_cells; ++c)
+      add_cell(c, cells[c]);
+  }
+
+
+  void
+  Tetrahedra::add_cell(const std::size_t number, const Tetrahedron &cell)
+  {
+    Batch &batch            = batches[number / n_lanes];
+    const unsigned int lane = number % n_lanes;
+
+    std::array<Vector3, 4> X, g;
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      X[a] = positions[cell.nodes[a]];
+    if (section.plane())
       {
-        Batch &batch            = batches[c / n_lanes];
-        const unsigned int lane = c % n_lanes;
+        const double centroid = (X[0][0] + X[1][0] + X[2][0]) / 3.;
+        batch.volume[lane]    = shape_gradients_in_plane(X, g) * section.thickness_at(centroid);
+      }
+    else
+      batch.volume[lane] = shape_gradients(X, g);
 
-        std::array<Vector3, 4> X, g;
-        for (unsigned int a = 0; a < 4; ++a)
-          X[a] = positions[cells[c].nodes[a]];
+    const IsotropicMaterial material = section.effective(cell.material);
+    batch.lambda[lane]               = material.lambda;
+    batch.mu[lane]                   = material.mu;
+    batch.density[lane]              = material.density;
+    batch.owned[lane]                = cell.owned ? 1. : 0.;
 
-        batch.volume[lane]  = shape_gradients(X, g);
-        batch.lambda[lane]  = cells[c].material.lambda;
-        batch.mu[lane]      = cells[c].material.mu;
-        batch.density[lane] = cells[c].material.density;
-        batch.owned[lane]   = cells[c].owned ? 1. : 0.;
-
-        // Nodes in ascending order: then each pair lies below the diagonal of the matrix.
-        std::array<unsigned int, 4> order = {{0, 1, 2, 3}};
-        std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
-          return cells[c].nodes[a] < cells[c].nodes[b];
-        });
-        for (unsigned int a = 0; a < 4; ++a)
-          {
-            batch.nodes[a][lane] = cells[c].nodes[order[a]];
-            for (unsigned int i = 0; i < 3; ++i)
-              batch.gradients[a][i][lane] = g[order[a]][i];
-          }
+    // Nodes in ascending order: then each pair lies below the diagonal of the matrix.
+    const auto number_of = [&](const unsigned int a) {
+      return a < n_nodes ? cell.nodes[a] : dealii::numbers::invalid_unsigned_int;
+    };
+    std::array<unsigned int, 4> order = {{0, 1, 2, 3}};
+    std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
+      return number_of(a) < number_of(b);
+    });
+    for (unsigned int a = 0; a < 4; ++a)
+      {
+        // The fourth node of a triangle: somewhere to read zero times a number from.
+        batch.nodes[a][lane] = cell.nodes[order[std::min(a, n_nodes - 1)]];
+        for (unsigned int i = 0; i < 3; ++i)
+          batch.gradients[a][i][lane] = g[order[a]][i];
+      }
+    if (section.axisymmetric())
+      {
+        const double radius                    = (X[0][0] + X[1][0] + X[2][0]) / 3.;
+        hoops[number / n_lanes].gradient[lane] = 1. / (3. * radius);
+        for (unsigned int a = 0; a < 3; ++a)
+          hoops[number / n_lanes].nodal_radius[a][lane] = X[order[a]][0] / radius;
       }
   }
 
@@ -103,15 +146,17 @@ namespace Supple
     for (std::size_t b = 0; b < batches.size(); ++b)
       for (unsigned int lane = 0; lane < n_lanes; ++lane)
         {
-          const bool empty = b * n_lanes + lane >= n_cells;
-          const auto node  = [&](const unsigned int a) { return batches[b].nodes[a][lane]; };
+          const bool empty  = b * n_lanes + lane >= n_cells;
+          const auto node   = [&](const unsigned int a) { return batches[b].nodes[a][lane]; };
+          const auto exists = [&](const unsigned int a) { return !empty && a < n_nodes; };
           for (unsigned int a = 0; a < 4; ++a)
             slots[b].diagonal[a][lane] =
-              (empty || node(a) >= pattern.n_owned) ? pattern.n_owned : node(a);
+              exists(a) && node(a) < pattern.n_owned ? node(a) : pattern.n_owned;
           for (unsigned int p = 0; p < 6; ++p)
             slots[b].lower[p][lane] =
-              empty ? pattern.n_entries()
-                    : pattern.position(node(lower_pairs[p][0]), node(lower_pairs[p][1]));
+              exists(lower_pairs[p][0])
+                ? pattern.position(node(lower_pairs[p][0]), node(lower_pairs[p][1]))
+                : pattern.n_entries();
         }
   }
 
@@ -149,21 +194,24 @@ namespace Supple
 
 
   Matrix3<Pack>
-  Tetrahedra::gradient(const Batch &batch, const NodalPack &values)
+  Tetrahedra::gradient(const std::size_t b, const NodalPack &values) const
   {
+    const Batch &batch = batches[b];
     Matrix3<Pack> G;
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < 3; ++j)
         G(i, j) = values[0][i] * batch.gradients[0][j] + values[1][i] * batch.gradients[1][j] +
                   values[2][i] * batch.gradients[2][j] + values[3][i] * batch.gradients[3][j];
+    if (!hoops.empty())
+      G(2, 2) += hoops[b].gradient * (values[0][0] + values[1][0] + values[2][0]);
     return G;
   }
 
 
   Matrix3<Pack>
-  Tetrahedra::deformation_gradient(const Batch &batch, const double *displacement) const
+  Tetrahedra::deformation_gradient(const std::size_t b, const double *displacement) const
   {
-    Matrix3<Pack> F = gradient(batch, gather(batch, displacement));
+    Matrix3<Pack> F = gradient(b, gather(batches[b], displacement));
     for (unsigned int i = 0; i < 3; ++i)
       F(i, i) += 1.;
     return F;
@@ -226,6 +274,9 @@ namespace Supple
         f[a][i] =
           batch.volume * (P(i, 0) * batch.gradients[a][0] + P(i, 1) * batch.gradients[a][1] +
                           P(i, 2) * batch.gradients[a][2]);
+    if (!hoops.empty())
+      for (unsigned int a = 0; a < 3; ++a)
+        f[a][0] += batch.volume * hoops[b].gradient * P(2, 2);
     scatter(batch, f, force);
   }
 
@@ -234,8 +285,12 @@ namespace Supple
   Tetrahedra::update_rotations(const RotationMethod method, const double *displacement)
   {
     rotations.resize(batches.size());
-    for (std::size_t b = 0; b < batches.size(); ++b)
-      rotations[b] = rotation(method, deformation_gradient(batches[b], displacement));
+    if (section.plane())
+      for (std::size_t b = 0; b < batches.size(); ++b)
+        rotations[b] = rotation_in_plane(method, deformation_gradient(b, displacement));
+    else
+      for (std::size_t b = 0; b < batches.size(); ++b)
+        rotations[b] = rotation(method, deformation_gradient(b, displacement));
   }
 
 
@@ -243,7 +298,7 @@ namespace Supple
   Tetrahedra::add_internal_force(const double *displacement, double *force) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
-      add_stress_divergence(b, strain(b, deformation_gradient(batches[b], displacement)), force);
+      add_stress_divergence(b, strain(b, deformation_gradient(b, displacement)), force);
   }
 
 
@@ -251,40 +306,82 @@ namespace Supple
   Tetrahedra::add_stiffness_product(const double *w, double *y) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
-      add_stress_divergence(b, rotated_back(b, gradient(batches[b], gather(batches[b], w))), y);
+      add_stress_divergence(b, rotated_back(b, gradient(b, gather(batches[b], w))), y);
   }
 
 
-  std::pair<Pack, Pack>
-  Tetrahedra::mass_entries(const Batch &batch) const
+  Pack
+  Tetrahedra::nodal_share(const std::size_t b, const unsigned int a) const
   {
-    const Pack mass = batch.density * batch.volume;
+    if (hoops.empty())
+      return 1. / n_nodes;
+    return (3. + hoops[b].nodal_radius[a]) / 12.;
+  }
+
+
+  /**
+   * (1 + delta_ac) pair_share of the cell's mass. All around an axis the integral of N_a N_c has
+   * the weight r, which makes it (3 + r_a/r + r_c/r)/5 times that.
+   */
+  Pack
+  Tetrahedra::mass_entry(const std::size_t b, const unsigned int a, const unsigned int c) const
+  {
+    const Pack mass = batches[b].density * batches[b].volume;
     if (lumped_mass)
-      return {0.25 * mass, Pack(0.)};
-    return {0.1 * mass, 0.05 * mass};
+      return a == c ? nodal_share(b, a) * mass : Pack(0.);
+    const Pack share = (a == c ? 2. : 1.) * pair_share * mass;
+    if (hoops.empty())
+      return share;
+    return 0.2 * (3. + hoops[b].nodal_radius[a] + hoops[b].nodal_radius[c]) * share;
   }
 
 
   Tetrahedra::NodalPack
-  Tetrahedra::mass_product(const Batch &batch, const NodalPack &values) const
+  Tetrahedra::integral(const std::size_t b,
+                       const Pack &weight,
+                       const bool lumped,
+                       const NodalPack &values) const
   {
-    const auto [same, other] = mass_entries(batch);
-    NodalPack product;
+    const Pack share    = weight * pair_share;
+    const double fourth = n_nodes == 4 ? 1. : 0.; // a triangle has no such node
+    NodalPack integrals;
     for (unsigned int i = 0; i < 3; ++i)
-      {
-        const Pack sum = values[0][i] + values[1][i] + values[2][i] + values[3][i];
+      if (lumped)
         for (unsigned int a = 0; a < 4; ++a)
-          product[a][i] = other * sum + (same - other) * values[a][i];
-      }
-    return product;
+          integrals[a][i] = nodal_share(b, a) * weight * values[a][i];
+      else if (hoops.empty())
+        {
+          const Pack sum = values[0][i] + values[1][i] + values[2][i] + fourth * values[3][i];
+          for (unsigned int a = 0; a < 4; ++a)
+            integrals[a][i] = share * (sum + values[a][i]);
+        }
+      else
+        {
+          const auto &r       = hoops[b].nodal_radius;
+          const Pack sum      = values[0][i] + values[1][i] + values[2][i];
+          const Pack weighted = r[0] * values[0][i] + r[1] * values[1][i] + r[2] * values[2][i];
+          for (unsigned int a = 0; a < 4; ++a)
+            integrals[a][i] =
+              0.2 * share * ((3. + r[a]) * sum + weighted + (3. + 2. * r[a]) * values[a][i]);
+        }
+    for (unsigned int i = 0; i < 3; ++i)
+      integrals[3][i] *= fourth;
+    return integrals;
+  }
+
+
+  Tetrahedra::NodalPack
+  Tetrahedra::mass_product(const std::size_t b, const NodalPack &values) const
+  {
+    return integral(b, batches[b].density * batches[b].volume, lumped_mass, values);
   }
 
 
   void
   Tetrahedra::add_mass_product(const double *w, double *y) const
   {
-    for (const Batch &batch : batches)
-      scatter(batch, mass_product(batch, gather(batch, w)), y);
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      scatter(batches[b], mass_product(b, gather(batches[b], w)), y);
     if (vertex_mass > 0.)
       for (std::size_t dof = 0; dof < 3 * positions.size(); ++dof)
         y[dof] += vertex_mass * w[dof];
@@ -294,66 +391,87 @@ namespace Supple
   void
   Tetrahedra::add_load(const double *force_density, double *force) const
   {
-    for (const Batch &batch : batches)
-      {
-        NodalPack values = gather(batch, force_density);
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      scatter(batches[b],
+              integral(b, batches[b].volume, false, gather(batches[b], force_density)),
+              force);
+  }
+
+
+  template <bool axisymmetric>
+  void
+  Tetrahedra::add_tangent_of(const std::size_t b,
+                             const double mass_factor,
+                             const double stiffness_factor,
+                             const double rotation_factor,
+                             SymmetricBlockMatrix &A) const
+  {
+    const Batch &batch = batches[b];
+    const Pack lambda  = stiffness_factor * batch.volume * batch.lambda;
+    const Pack mu      = stiffness_factor * batch.volume * batch.mu;
+    const Pack same    = mass_factor * mass_entry(b, 0, 0);
+    const Pack other   = mass_factor * mass_entry(b, 0, 1);
+
+    const NodalPack h  = rotated_gradients(b);
+    const bool turning = !rotation_stiffness.empty();
+    NodalPack t        = h; // of the trace of the strain
+    if constexpr (axisymmetric)
+      for (unsigned int a = 0; a < 3; ++a)
+        t[a][0] += hoops[b].gradient;
+
+    const auto add_block =
+      [&](const unsigned int a, const unsigned int c, const auto &slot, double *values) {
+        Pack diagonal = mu * (h[a][0] * h[c][0] + h[a][1] * h[c][1] + h[a][2] * h[c][2]);
+        if constexpr (axisymmetric)
+          diagonal += mass_factor * mass_entry(b, a, c);
+        else
+          diagonal += a == c ? same : other;
+        std::array<std::array<Pack, 3>, 3> turn;
+        if (turning)
+          turn = rotation_block(b, h, a, c);
+        alignas(64) double block[9][n_lanes];
         for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            {
+              Pack entry = mu * h[c][i] * h[a][j];
+              if constexpr (axisymmetric)
+                entry += lambda * t[a][i] * t[c][j];
+              else
+                entry += lambda * h[a][i] * h[c][j];
+              if (i == j)
+                entry += diagonal;
+              if (turning)
+                entry += rotation_factor * turn[j][i];
+              if (axisymmetric && i == 0 && j == 0)
+                entry += 2. * mu * hoops[b].gradient * hoops[b].gradient;
+              entry.copy_to(block[3 * i + j], stdx::vector_aligned);
+            }
+        for (unsigned int lane = 0; lane < n_lanes; ++lane)
           {
-            const Pack sum = values[0][i] + values[1][i] + values[2][i] + values[3][i];
-            for (unsigned int a = 0; a < 4; ++a)
-              values[a][i] = 0.05 * batch.volume * (sum + values[a][i]);
+            double *target = values + 9 * static_cast<std::size_t>(slot[lane]);
+            for (unsigned int k = 0; k < 9; ++k)
+              target[k] += block[k][lane];
           }
-        scatter(batch, values, force);
-      }
+      };
+
+    for (unsigned int a = 0; a < 4; ++a)
+      add_block(a, a, slots[b].diagonal[a], A.diagonal.data());
+    for (unsigned int p = 0; p < 6; ++p)
+      add_block(lower_pairs[p][0], lower_pairs[p][1], slots[b].lower[p], A.lower.data());
   }
 
 
   void
   Tetrahedra::add_tangent(const double mass_factor,
                           const double stiffness_factor,
+                          const double rotation_factor,
                           SymmetricBlockMatrix &A) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
-      {
-        const Batch &batch       = batches[b];
-        const auto [same, other] = mass_entries(batch);
-        const Pack lambda        = stiffness_factor * batch.volume * batch.lambda;
-        const Pack mu            = stiffness_factor * batch.volume * batch.mu;
-
-        NodalPack h = batch.gradients;
-        if (!rotations.empty())
-          for (unsigned int a = 0; a < 4; ++a)
-            for (unsigned int i = 0; i < 3; ++i)
-              h[a][i] = rotations[b](i, 0) * batch.gradients[a][0] +
-                        rotations[b](i, 1) * batch.gradients[a][1] +
-                        rotations[b](i, 2) * batch.gradients[a][2];
-
-        const auto add_block =
-          [&](const unsigned int a, const unsigned int c, const auto &slot, double *values) {
-            const Pack diagonal = mu * (h[a][0] * h[c][0] + h[a][1] * h[c][1] + h[a][2] * h[c][2]) +
-                                  mass_factor * (a == c ? same : other);
-            alignas(64) double block[9][n_lanes];
-            for (unsigned int i = 0; i < 3; ++i)
-              for (unsigned int j = 0; j < 3; ++j)
-                {
-                  Pack entry = lambda * h[a][i] * h[c][j] + mu * h[c][i] * h[a][j];
-                  if (i == j)
-                    entry += diagonal;
-                  entry.copy_to(block[3 * i + j], stdx::vector_aligned);
-                }
-            for (unsigned int lane = 0; lane < n_lanes; ++lane)
-              {
-                double *target = values + 9 * static_cast<std::size_t>(slot[lane]);
-                for (unsigned int k = 0; k < 9; ++k)
-                  target[k] += block[k][lane];
-              }
-          };
-
-        for (unsigned int a = 0; a < 4; ++a)
-          add_block(a, a, slots[b].diagonal[a], A.diagonal.data());
-        for (unsigned int p = 0; p < 6; ++p)
-          add_block(lower_pairs[p][0], lower_pairs[p][1], slots[b].lower[p], A.lower.data());
-      }
+      if (section.axisymmetric())
+        add_tangent_of<true>(b, mass_factor, stiffness_factor, rotation_factor, A);
+      else
+        add_tangent_of<false>(b, mass_factor, stiffness_factor, rotation_factor, A);
     if (vertex_mass > 0.)
       A.add_to_diagonal(mass_factor * vertex_mass);
   }
@@ -364,13 +482,17 @@ namespace Supple
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
       {
-        const auto [same, other] = mass_entries(batches[b]);
-        for (unsigned int lane = 0; lane < n_lanes; ++lane)
+        for (unsigned int a = 0; a < 4; ++a)
           {
-            for (unsigned int a = 0; a < 4; ++a)
-              M.diagonal[slots[b].diagonal[a][lane]] += same[lane];
-            for (unsigned int p = 0; p < 6; ++p)
-              M.lower[slots[b].lower[p][lane]] += other[lane];
+            const Pack entry = mass_entry(b, a, a);
+            for (unsigned int lane = 0; lane < n_lanes; ++lane)
+              M.diagonal[slots[b].diagonal[a][lane]] += entry[lane];
+          }
+        for (unsigned int p = 0; p < 6; ++p)
+          {
+            const Pack entry = mass_entry(b, lower_pairs[p][0], lower_pairs[p][1]);
+            for (unsigned int lane = 0; lane < n_lanes; ++lane)
+              M.lower[slots[b].lower[p][lane]] += entry[lane];
           }
       }
     for (unsigned int node = 0; node < n_owned; ++node)
@@ -381,10 +503,13 @@ namespace Supple
   void
   Tetrahedra::add_nodal_mass(double *mass) const
   {
-    for (const Batch &batch : batches)
-      for (unsigned int lane = 0; lane < n_lanes; ++lane)
-        for (unsigned int a = 0; a < 4; ++a)
-          mass[batch.nodes[a][lane]] += 0.25 * batch.density[lane] * batch.volume[lane];
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        {
+          const Pack share = nodal_share(b, a) * batches[b].density * batches[b].volume;
+          for (unsigned int lane = 0; lane < n_lanes; ++lane)
+            mass[batches[b].nodes[a][lane]] += share[lane];
+        }
     for (std::size_t node = 0; node < positions.size(); ++node)
       mass[node] += vertex_mass;
   }
@@ -416,6 +541,11 @@ namespace Supple
         if (vertex_mass > 0.)
           add_motion_of_vertices(displacement, velocity, sums);
       }
+    if (section.axisymmetric())
+      {
+        sums.linear_momentum[0] = 0.;
+        sums.angular_momentum   = {{0., 0., 0.}};
+      }
     return sums;
   }
 
@@ -428,7 +558,7 @@ namespace Supple
     for (std::size_t b = 0; b < batches.size(); ++b)
       {
         const Batch &batch    = batches[b];
-        const Matrix3<Pack> F = deformation_gradient(batch, displacement);
+        const Matrix3<Pack> F = deformation_gradient(b, displacement);
         const Matrix3<Pack> e = strain(b, F);
         const Pack tr         = trace(e);
         elastic +=
@@ -454,16 +584,17 @@ namespace Supple
   {
     Pack kinetic(0.);
     std::array<Pack, 3> linear{{0., 0., 0.}}, angular{{0., 0., 0.}};
-    for (const Batch &batch : batches)
+    for (std::size_t b = 0; b < batches.size(); ++b)
       {
-        NodalPack x = gather(batch, displacement);
+        const Batch &batch = batches[b];
+        NodalPack x        = gather(batch, displacement);
         for (unsigned int lane = 0; lane < n_lanes; ++lane)
           for (unsigned int a = 0; a < 4; ++a)
             for (unsigned int i = 0; i < 3; ++i)
               x[a][i][lane] += positions[batch.nodes[a][lane]][i];
 
         const NodalPack v = gather(batch, velocity);
-        const NodalPack p = mass_product(batch, v);
+        const NodalPack p = mass_product(b, v);
         for (unsigned int a = 0; a < 4; ++a)
           for (unsigned int i = 0; i < 3; ++i)
             {
@@ -510,10 +641,12 @@ namespace Supple
     std::vector<CellState> states(n_cells);
     for (std::size_t b = 0; b < batches.size(); ++b)
       {
-        const Matrix3<Pack> F = deformation_gradient(batches[b], displacement);
+        const Matrix3<Pack> F = deformation_gradient(b, displacement);
 
         Matrix3<Pack> deviator = stress(batches[b], strain(b, F));
-        const Pack mean        = trace(deviator) / 3.;
+        if (section.geometry == Geometry::plane_stress)
+          deviator(2, 2) = 0.;
+        const Pack mean = trace(deviator) / 3.;
         for (unsigned int i = 0; i < 3; ++i)
           deviator(i, i) -= mean;
 

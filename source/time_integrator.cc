@@ -1,11 +1,15 @@
-#include <supple/backward_euler.h>
+#include <supple/arkode_integrator.h>
+#include <supple/ida_integrator.h>
 #include <supple/static_equilibrium.h>
 #include <supple/time_integrator.h>
 
+#include <nlohmann/json.hpp>
+
 namespace Supple
 {
-  TimeIntegrator::TimeIntegrator(const Model &model)
-    : model(model)
+  TimeIntegrator::TimeIntegrator(const Model &model, const double end)
+    : end(end)
+    , model(model)
   {
     model.body.initialize(reaction);
   }
@@ -17,7 +21,23 @@ namespace Supple
     model.body.update_rotations(displacement, model.effort);
     if (model.parameters.time.problem == TimeParameters::Problem::stationary)
       return std::make_unique<StaticEquilibrium>(model);
-    return std::make_unique<BackwardEuler>(model);
+    if (model.parameters.time.method == TimeParameters::Method::ida)
+      return std::make_unique<IdaIntegrator>(model);
+    return std::make_unique<ArkodeIntegrator>(model);
+  }
+
+
+  nlohmann::json
+  TimeIntegrator::save()
+  {
+    return {{"time", time}};
+  }
+
+
+  void
+  TimeIntegrator::load(const nlohmann::json &saved)
+  {
+    time = saved.at("time");
   }
 
 

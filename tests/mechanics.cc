@@ -4,6 +4,8 @@
 #include <supple/serial_mesh.h>
 #include <supple/tetrahedra.h>
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -381,6 +383,23 @@ namespace
   }
 
 
+  /** A pattern that couples every node with every other. */
+  SymmetricPattern
+  full_pattern(const unsigned int n_nodes)
+  {
+    SymmetricPattern pattern;
+    pattern.n_owned = pattern.n_local = n_nodes;
+    pattern.row_start.push_back(0);
+    for (unsigned int i = 0; i < n_nodes; ++i)
+      {
+        for (unsigned int j = 0; j < i; ++j)
+          pattern.column.push_back(j);
+        pattern.row_start.push_back(pattern.column.size());
+      }
+    return pattern;
+  }
+
+
   void
   test_stiffness(const JitteredBox &box)
   {
@@ -400,23 +419,14 @@ namespace
       error[i] = f1[i] - f0[i] - product[i];
     report("  K' w from the cells", norm(error) / norm(product), 1e-13);
 
-    // As a matrix, in a pattern that couples every node with every other.
-    SymmetricPattern pattern;
-    pattern.n_owned = pattern.n_local = box.positions.size();
-    pattern.row_start.push_back(0);
-    for (unsigned int i = 0; i < pattern.n_owned; ++i)
-      {
-        for (unsigned int j = 0; j < i; ++j)
-          pattern.column.push_back(j);
-        pattern.row_start.push_back(pattern.column.size());
-      }
+    const SymmetricPattern pattern = full_pattern(box.positions.size());
     for (const bool lumped : {false, true})
       {
         Tetrahedra massive = box.tetrahedra(lumped);
         massive.update_rotations(RotationMethod::polar, u.data());
         massive.connect(pattern);
         SymmetricBlockMatrix A(pattern);
-        massive.add_tangent(2., 3., A);
+        massive.add_tangent(2., 3., 3., A);
         Nodal by_matrix(u.size()), by_cells(u.size()), mass(u.size());
         A.vmult(by_matrix.data(), w.data());
         massive.add_mass_product(w.data(), mass.data());
@@ -433,6 +443,81 @@ namespace
         for (std::size_t i = 0; i < u.size(); ++i)
           error[i] = by_matrix[i] - mass[i];
         report("  M as a matrix", norm(error) / norm(mass), 1e-13);
+      }
+  }
+
+
+  /** The smallest and the largest eigenvalue of K'. */
+  std::pair<double, double>
+  extreme_eigenvalues(Tetrahedra &tetrahedra, const SymmetricPattern &pattern)
+  {
+    tetrahedra.connect(pattern);
+    SymmetricBlockMatrix A(pattern);
+    tetrahedra.add_tangent(0., 1., 1., A);
+    const unsigned int n = 3 * pattern.n_owned;
+    Eigen::MatrixXd K(n, n);
+    Nodal unit(n), column(n);
+    for (unsigned int j = 0; j < n; ++j)
+      {
+        unit[j] = 1.;
+        A.vmult(column.data(), unit.data());
+        for (unsigned int i = 0; i < n; ++i)
+          K(i, j) = column[i];
+        unit[j] = 0.;
+      }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K, Eigen::EigenvaluesOnly);
+    return {eigen.eigenvalues().minCoeff(), eigen.eigenvalues().maxCoeff()};
+  }
+
+
+  void
+  test_tangent(const JitteredBox &box)
+  {
+    std::printf("Consistent tangent against differences of the force with rotations that follow\n");
+    const Nodal w = box.displacement({{0.3, 0.1, 0.2, -0.4, 0.5, 0.1, 0.2, 0.2, -0.3}}, 0.4);
+    const SymmetricPattern pattern = full_pattern(box.positions.size());
+    for (const double squeezed : {1.2, 0.7})
+      {
+        std::array<double, 9> G = rigid_rotation(0.7);
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            G[3 * i + j] = squeezed * (G[3 * i + j] + (i == j)) - (i == j);
+        const Nodal u         = box.displacement(G, 0.1);
+        Tetrahedra tetrahedra = box.tetrahedra();
+
+        const double h = 1e-5;
+        Nodal up = u, down = u, product(u.size()), error(u.size());
+        for (std::size_t i = 0; i < u.size(); ++i)
+          {
+            up[i] += h * w[i];
+            down[i] -= h * w[i];
+          }
+        const Nodal f_up   = box.own_force(tetrahedra, RotationMethod::polar, up);
+        const Nodal f_down = box.own_force(tetrahedra, RotationMethod::polar, down);
+        tetrahedra.update_rotations(RotationMethod::polar, u.data());
+        tetrahedra.update_rotation_stiffness(Tangent::consistent, u.data());
+        tetrahedra.add_stiffness_product(w.data(), product.data());
+        tetrahedra.add_rotation_product(w.data(), product.data());
+        for (std::size_t i = 0; i < u.size(); ++i)
+          error[i] = (f_up[i] - f_down[i]) / (2. * h) - product[i];
+        report(squeezed > 1. ? "  stretched" : "  squeezed", norm(error) / norm(product), 1e-8);
+
+        tetrahedra.connect(pattern);
+        SymmetricBlockMatrix A(pattern);
+        tetrahedra.add_tangent(0., 1., 1., A);
+        A.vmult(error.data(), w.data());
+        for (std::size_t i = 0; i < u.size(); ++i)
+          error[i] -= product[i];
+        report("  as a matrix", norm(error) / norm(product), 1e-13);
+
+        const auto consistent = extreme_eigenvalues(tetrahedra, pattern);
+        tetrahedra.update_rotation_stiffness(Tangent::definite, u.data());
+        const auto definite = extreme_eigenvalues(tetrahedra, pattern);
+        report("  definite: smallest over largest eigenvalue, with a minus sign",
+               std::max(0., -definite.first / definite.second),
+               1e-13);
+        if (squeezed < 1.)
+          report_larger("  consistent: the same", -consistent.first / consistent.second, 1e-4);
       }
   }
 
@@ -476,5 +561,6 @@ main()
   test_rigid_rotation(box);
   test_energy(box);
   test_stiffness(box);
+  test_tangent(box);
   test_momentum(box);
 }

@@ -80,7 +80,7 @@ refused(write("flat.msh", vertices=[*VERTICES[:4], (0.5, 0.5, 0)]), "1 cell(s) a
 refused(write("three.msh", vertices=[*VERTICES, (0.2, 0.2, -1), (0.2, 0.2, -2)],
               cells=[CELLS[0], (0, 2, 1, 5), (0, 2, 1, 6)]), "a face has three cells")
 refused(write("numbers.msh", numbers=[44, 44]), "announces 2 elements", "only 1 can be read", "meshio convert")
-refused(write("only-surface.msh", cells=[(0, 1, 2)], kind=2), "but no tetrahedra")
+refused(write("only-surface.msh", cells=[(1, 2, 3)], kind=2), "but no tetrahedra", "plane z = 0")
 quadratic = [(i / 10, (i * i % 7) / 7, (i % 3) / 3) for i in range(10)]
 refused(write("quadratic.msh", vertices=quadratic, cells=[tuple(range(10))], kind=11), "quadratic", "-order 1")
 

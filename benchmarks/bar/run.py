@@ -6,35 +6,19 @@ Small bar (20 m/s) with polar rotations, backward Euler, dt = 0.07 s, relative t
 run several times; the run with the median time a step is shown. The table goes into README.md of this folder by hand.
 """
 
-import argparse
-import json
-import os
 import pathlib
 import resource
-import subprocess
-import tempfile
+import sys
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import timing
+
 PHASES = ["rotations", "forces", "assembly", "solver_setup", "solve"]
 STEPS = {1: 100, 2: 60, 3: 40, 4: 30, 8: 10, 16: 5}
 
 
-def measure(refinement, method):
-    """summary.json of one run."""
-    with tempfile.TemporaryDirectory() as folder:
-        settings = {"Mesh/Box cubes": f"{2 * refinement}, {8 * refinement}, {2 * refinement}",
-                    "Time/Steps": STEPS[refinement], "Solver/Method": method, "Solver/Tolerance": 1e-6,
-                    "Output/Frames": "none", "Output/History": "false", "Probes/Points": "", "Probes/Boundaries": ""}
-        command = [ROOT / "build" / "supple", ROOT / "parameters" / "bar" / "small.prm", "--quiet", "--output", folder]
-        for entry, value in settings.items():
-            command += ["--set", f"{entry}={value}"]
-        subprocess.run(command, check=True, env=dict(os.environ, OPENBLAS_NUM_THREADS="1", OMPI_MCA_pml="ob1"))
-        return json.loads((pathlib.Path(folder) / "summary.json").read_text())
-
-
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--repeat", type=int, default=3)
+    parser = timing.parser(__doc__)
     parser.add_argument("--sizes", type=int, nargs="+", default=[1, 2, 4, 8])
     parser.add_argument("--methods", nargs="+", default=["auto"])
     arguments = parser.parse_args()
@@ -43,12 +27,12 @@ def main():
     print("|" + "---|" * (len(PHASES) + 7))
     for refinement in arguments.sizes:
         for method in arguments.methods:
-            runs = sorted((measure(refinement, method) for _ in range(arguments.repeat)),
-                          key=lambda summary: summary["seconds"]["run"])
-            summary = runs[len(runs) // 2]
+            settings = {"Mesh/Box cubes": f"{2 * refinement}, {8 * refinement}, {2 * refinement}",
+                        "Time/Steps": STEPS[refinement], "Solver/Method": method, "Solver/Tolerance": 1e-6}
+            summary = timing.median_run("bar/small", settings, arguments)
             steps, seconds = summary["steps"], summary["seconds"]
             phases = [1e3 * seconds[phase] / steps for phase in PHASES]
-            total = 1e3 * seconds["run"] / steps
+            total = 1e3 * timing.seconds_a_step(summary)
             cells = [str(summary["cells"]), summary["solver"]["name"], f"{1e3 / total:.4g}", f"{total:.4g}"]
             cells += [f"{value:.3g}" for value in phases + [total - sum(phases)]]
             cells += [f"{summary['solver']['iterations'] / steps:.1f}",

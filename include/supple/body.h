@@ -6,10 +6,6 @@
 #include <supple/tetrahedra.h>
 #include <supple/vector.h>
 
-#include <deal.II/base/partitioner.h>
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/fe_system.h>
-
 #include <memory>
 
 namespace Supple
@@ -29,20 +25,27 @@ namespace Supple
 
     const Mesh &mesh;
     const RotationMethod rotation;
-    const dealii::FESystem<3> fe;
-    dealii::DoFHandler<3> dof_handler;
+    const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
 
-    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
+    const unsigned int n_owned;                          ///< nodes
+    const unsigned int n_local;                          ///< nodes, ghosts included
+    const std::vector<std::array<double, 3>> &positions; ///< at rest [m], of local nodes
+    const std::vector<unsigned int> &serial_vertex;      ///< vertex index in the unpartitioned mesh
 
-    unsigned int n_owned;                                ///< nodes
-    unsigned int n_local;                                ///< nodes, ghosts included
-    std::vector<std::array<double, 3>> positions;        ///< at rest [m], of local nodes
-    std::vector<unsigned int> serial_vertex;             ///< vertex index in the unpartitioned mesh
     std::vector<std::array<unsigned int, 4>> cell_nodes; ///< local node numbers
-    std::vector<unsigned int> active_cell;               ///< active_cell_index() of each cell
+    std::vector<unsigned int> cell_index;                ///< place in values by cell
     std::vector<unsigned int> cell_material;             ///< material id of each cell
 
     std::unique_ptr<Tetrahedra> tetrahedra;
+
+    /** Degrees of freedom on all processes, without those along z of a plane body. */
+    unsigned int
+    n_dofs() const;
+
+    /** Whether a degree of freedom stays at rest whatever the scene says: a plane body does not
+     * leave its plane, and an axisymmetric one does not open at its axis. */
+    bool
+    is_held_by_nature(unsigned int dof) const;
 
     void
     initialize(Vector &vector) const;
@@ -50,6 +53,10 @@ namespace Supple
     /** R of every cell from the displacement; nothing to do for linear elasticity. */
     void
     update_rotations(const Vector &displacement, Effort &effort) const;
+
+    /** What the derivatives of the rotations add to K', see Tetrahedra. */
+    void
+    update_rotation_stiffness(Tangent tangent, const Vector &displacement, Effort &effort) const;
 
     /** f = sum R K (R^T x - X) on owned nodes, held ones included, with the rotations of the last
      * update. */
@@ -82,8 +89,8 @@ namespace Supple
 
     /**
      * The faces of boundaries that touch a node of this process, their nodes in the order that
-     * makes the normal point out of the body. @throws InputError beginning with @p origin if there
-     * is no such boundary
+     * makes the normal point out of the body; the second node of an edge stands twice. @throws
+     * InputError beginning with @p origin if there is no such boundary
      */
     std::vector<std::array<unsigned int, 3>>
     boundary_faces(const std::vector<unsigned int> &boundary_ids, const std::string &origin) const;
@@ -94,14 +101,16 @@ namespace Supple
     region_nodes(const std::string &expression, const std::string &origin) const;
 
   private:
+    /** nearest_vertex() of a point that is not far from the body. @throws InputError beginning with
+     * @p origin if it is */
+    unsigned int
+    vertex_of_body(const dealii::Point<3> &point, const std::string &origin) const;
+
     /** @throws InputError beginning with @p origin */
     void
     require_boundary(unsigned int boundary_id, const std::string &origin) const;
 
     std::map<unsigned int, IsotropicMaterial> materials;
-
-    void
-    number_nodes();
 
     void
     collect_cells(const Parameters &parameters);

@@ -10,6 +10,9 @@
 #include <deal.II/dofs/dof_tools.h>
 
 #include <arkode/arkode_arkstep.h>
+#include <idas/idas.h>
+#include <sundials/sundials_context.h>
+#include <sundials/sundials_linearsolver.h>
 
 #include <cstdlib>
 #include <string>
@@ -19,14 +22,52 @@ namespace Supple
   namespace Compatibility
   {
 #if DEAL_II_SUNDIALS_VERSION_GTE(7, 0, 0)
-    using Real = sunrealtype;
+    using Boolean                      = sunbooleantype;
+    constexpr int linear_solver_failed = SUN_ERR_EXT_FAIL;
 #else
-    using Real = realtype;
+    using Boolean                      = booleantype;
+    constexpr int linear_solver_failed = SUNLS_PACKAGE_FAIL_UNREC;
 #endif
 
 
-    /** Where ARKode's errors go: into @p message, which must outlive the solver, and not onto the
-     * screen. */
+    inline SUNContext
+    create_sundials_context(MPI_Comm &communicator)
+    {
+      SUNContext context = nullptr;
+#if DEAL_II_SUNDIALS_VERSION_GTE(7, 0, 0)
+      SUNContext_Create(communicator, &context);
+#else
+      SUNContext_Create(&communicator, &context);
+#endif
+      return context;
+    }
+
+
+    /** Where the errors of all that has this context go: into @p message, which must outlive it. */
+    inline void
+    collect_errors(const SUNContext context, std::string &message)
+    {
+#if DEAL_II_SUNDIALS_VERSION_GTE(7, 0, 0)
+      SUNContext_ClearErrHandlers(context);
+      SUNContext_PushErrHandler(
+        context,
+        [](int,
+           const char *function,
+           const char *,
+           const char *text,
+           SUNErrCode,
+           void *target,
+           SUNContext) {
+          *static_cast<std::string *>(target) = std::string(function) + ": " + (text ? text : "");
+        },
+        &message);
+#else
+      (void)context;
+      (void)message;
+#endif
+    }
+
+    /** The same for ARKode, where it has a handler of its own. */
     inline void
     collect_arkode_errors(void *arkode_memory, std::string &message)
     {
@@ -45,8 +86,28 @@ namespace Supple
     }
 
 
-    inline dealii::IndexSet
-    locally_relevant_dofs(const dealii::DoFHandler<3> &dof_handler)
+    /** The same for IDA. */
+    inline void
+    collect_ida_errors(void *ida_memory, std::string &message)
+    {
+#if DEAL_II_SUNDIALS_VERSION_GTE(7, 0, 0)
+      (void)ida_memory;
+      (void)message;
+#else
+      IDASetErrHandlerFn(
+        ida_memory,
+        [](int code, const char *, const char *function, char *text, void *target) {
+          if (code < 0)
+            *static_cast<std::string *>(target) = std::string(function) + ": " + text;
+        },
+        &message);
+#endif
+    }
+
+
+    template <int dim, int spacedim>
+    dealii::IndexSet
+    locally_relevant_dofs(const dealii::DoFHandler<dim, spacedim> &dof_handler)
     {
 #if DEAL_II_VERSION_GTE(9, 6, 0)
       return dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);

@@ -52,11 +52,15 @@ namespace Supple
     void
     copy_held(Vector &to, const Vector &from) const;
 
-    unsigned int n_held; ///< degrees of freedom on all processes
+    unsigned int n_held; ///< degrees of freedom on all processes, without those along z of a
+                         ///< plane body
 
     unsigned int n_pieces_free; ///< pieces of the body of which nothing is held
 
-    /** How many of the six rigid motions remain possible. */
+    /** Of a body: six, three in the plane, or one along its axis. */
+    unsigned int n_rigid_motions;
+
+    /** How many of them remain possible. */
     unsigned int n_free_rigid_motions;
 
   private:
@@ -75,8 +79,12 @@ namespace Supple
     const Body &body;
     std::vector<Motion> motions;
 
+    /** What the body itself demands, and lists and numbers of all that is held. */
+    void
+    complete();
+
     unsigned int
-    count_free_rigid_motions(const Body &body) const;
+    count_free_rigid_motions() const;
 
     std::vector<bool> held;
     std::vector<unsigned int> held_owned;

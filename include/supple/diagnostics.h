@@ -3,6 +3,8 @@
 
 #include <supple/time_integrator.h>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <array>
 #include <string>
 #include <vector>
@@ -41,6 +43,16 @@ namespace Supple
   };
 
 
+  /** The worst of a run. */
+  struct Extremes
+  {
+    unsigned int energy_rises  = 0; ///< steps in which the total energy rose by more than the work
+    unsigned int most_inverted = 0; ///< cells
+    double min_volume_ratio    = 1.;
+    double max_volume_ratio    = 1.;
+  };
+
+
   /**
    * Energies, momenta and volumes of the body. In a dynamic problem
    *   total + dissipated - work
@@ -61,14 +73,33 @@ namespace Supple
             const State &state,
             const StepReport &report);
 
+    /** What a checkpoint has to keep of it. */
+    nlohmann::json
+    save() const;
+
+    void
+    load(const nlohmann::json &saved);
+
+    const Extremes &
+    extremes() const
+    {
+      return worst;
+    }
+
   private:
+    void
+    note_extremes(const Measurement &measurement, double rise);
+
     const Body &body;
     const Loads &loads;
     const bool stationary;
-    bool first        = true;
-    double elastic    = 0.;
-    double dissipated = 0.;
-    double work       = 0.;
+    Extremes worst;
+    double largest_energy = 0.;
+    bool first            = true;
+    double elastic        = 0.;
+    double total          = 0.;
+    double dissipated     = 0.;
+    double work           = 0.;
   };
 } // namespace Supple
 

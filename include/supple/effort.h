@@ -33,6 +33,7 @@ namespace Supple
     unsigned long solves             = 0;
     unsigned long linear_iterations  = 0;
     unsigned long newton_iterations  = 0;
+    unsigned long rejected_steps     = 0;
     double max_relative_residual     = 0.; ///< true residual over right hand side, worst solve
 
     std::array<double, phase_names.size()> seconds{{}};

@@ -33,6 +33,10 @@ namespace Supple
       return zero;
     }
 
+    /** Whether a text is the number 0. */
+    static bool
+    says_zero(const std::string &text);
+
     bool
     depends_on_time() const
     {

@@ -3,9 +3,6 @@
 
 #include <supple/diagnostics.h>
 
-#include <deal.II/numerics/data_out.h>
-
-#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +26,19 @@ namespace Supple
     void
     write(const State &state, const Measurement &now);
 
+    /** What a checkpoint has to keep of it beside displacement_of_last(). */
+    nlohmann::json
+    save() const;
+
+    void
+    load(const nlohmann::json &saved);
+
+    Vector &
+    displacement_of_last()
+    {
+      return last_displacement;
+    }
+
     unsigned int
     n_written() const
     {
@@ -45,13 +55,11 @@ namespace Supple
     void
     write_vtu(const State &state, const Measurement &now, const std::string &name);
 
-    void
-    add_fields(const State &state,
-               dealii::DataOut<3> &data,
-               std::array<dealii::Vector<float>, 4> &cell_fields) const;
+    std::vector<std::pair<std::string, dealii::Vector<float>>>
+    cell_fields(const State &state) const;
 
     void
-    write_pieces(const dealii::DataOut<3> &data, const std::string &name) const;
+    write_pieces(const Drawing &drawing, const std::string &name) const;
 
     const Body &body;
     const OutputParameters &parameters;

@@ -40,7 +40,7 @@ namespace Supple
     void
     mass_vmult(Vector &y, const Vector &x) const;
 
-    /** y = K' x, from the cells. */
+    /** y = K' x, from the cells, with what rotations add. */
     void
     stiffness_vmult(Vector &y, const Vector &x) const;
 
@@ -68,7 +68,10 @@ namespace Supple
 
   private:
     void
-    assemble(double mass_factor, double stiffness_factor, double diagonal_term);
+    assemble(double mass_factor,
+             double stiffness_factor,
+             double rotation_factor,
+             double diagonal_term);
 
     SymmetricPattern
     make_pattern() const;

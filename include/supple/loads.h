@@ -47,6 +47,17 @@ namespace Supple
   private:
     using Faces = std::vector<std::array<unsigned int, 3>>;
 
+    /** What integrals over a face need, for nodes at these places. */
+    struct FaceIntegrals
+    {
+      dealii::Tensor<1, 3> normal; ///< outward, as long as the face is large
+      std::array<std::array<double, 3>, 3>
+        products; ///< integrals of products of two shape functions, over the length of the normal
+    };
+
+    FaceIntegrals
+    integrals(const std::array<dealii::Point<3>, 3> &x) const;
+
     void
     add_body_force(double time, Vector &force) const;
 

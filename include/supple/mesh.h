@@ -1,14 +1,13 @@
 #ifndef supple_mesh_h
 #define supple_mesh_h
 
+#include <supple/distributed_mesh.h>
 #include <supple/mesh_check.h>
-#include <supple/serial_mesh.h>
 
 #include <deal.II/base/bounding_box.h>
-#include <deal.II/distributed/fully_distributed_tria.h>
 
-#include <array>
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace Supple
@@ -21,11 +20,8 @@ namespace Supple
     Mesh(const Parameters &parameters, MPI_Comm communicator);
 
     const MPI_Comm communicator;
-    dealii::parallel::fullydistributed::Triangulation<3> triangulation;
-
-    /** Index in the mesh before it was partitioned, for each vertex of this process's
-     * triangulation. */
-    std::vector<unsigned int> serial_vertex;
+    Section section; ///< solid, or what stands behind the triangles of a plane body
+    std::unique_ptr<DistributedMesh> parts;
 
     unsigned int n_cells;                            ///< on all processes
     unsigned int n_vertices;                         ///< on all processes
@@ -39,7 +35,11 @@ namespace Supple
     double
     diameter() const;
 
-    /** "[0, 4] x [0, 12] x [0, 4]" */
+    /** "tetrahedra" or "triangles" */
+    std::string
+    cell_name() const;
+
+    /** "[0, 4] x [0, 12] x [0, 4]"; along x and y alone for a plane body. */
     std::string
     extent() const;
 

@@ -28,7 +28,7 @@ namespace Supple
 
   /**
    * Looks a mesh through and mends what can be mended: negative cells are turned around, and the
-   * boundary gets a triangle for each face with one cell (id 0 where none was given).
+   * boundary gets each face with one cell (id 0 where none was given).
    * @throws InputError beginning with @p origin for flat cells, vertices that do not exist, and
    * faces with more than two cells
    */
@@ -36,8 +36,8 @@ namespace Supple
   check_mesh(SerialMesh &mesh, const std::string &origin);
 
 
-  /** Mean ratio of a tetrahedron: 12 (3 V)^(2/3) / sum of squared edges; 1 if regular, 0 if flat.
-   */
+  /** Mean ratio of a tetrahedron, 12 (3 V)^(2/3) / sum of squared edges, or of a triangle,
+   * 4 sqrt(3) A / sum of squared edges: 1 if regular, 0 if flat. */
   double
   quality(const SerialMesh &mesh, std::size_t cell);
 } // namespace Supple

@@ -3,6 +3,7 @@
 
 #include <supple/material.h>
 #include <supple/rotation.h>
+#include <supple/section.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
@@ -23,7 +24,16 @@ namespace Supple
     {
       box,
       hollow_cylinder,
+      rectangle,
       file
+    };
+
+    /** How the squares of a rectangle are cut in two. */
+    enum class Split
+    {
+      falling,
+      rising,
+      alternating
     };
 
     Shape shape = Shape::box;
@@ -39,6 +49,13 @@ namespace Supple
     unsigned int rings   = 6;
     unsigned int layers  = 1;
 
+    dealii::Point<2> rectangle_origin{0., 0.};
+    dealii::Point<2> rectangle_size{1., 1.};
+    std::array<unsigned int, 2> squares{{8, 8}};
+    Split split = Split::falling;
+
+    std::vector<double> material_layers; ///< thicknesses from the top (largest y) downward [m]
+
     std::string file; ///< as written; relative to the folder of the scene
     double scale = 1.;
     std::string boundary_regions;
@@ -49,9 +66,43 @@ namespace Supple
     void
     check(const Parameters &parameters) const;
 
+    /** The material id of each row of cubes or squares along y, from the bottom. */
+    std::vector<unsigned int>
+    material_of_rows() const;
+
   private:
     void
     declare_cylinder(dealii::ParameterHandler &prm);
+
+    void
+    declare_rectangle(dealii::ParameterHandler &prm);
+
+    void
+    declare_file(dealii::ParameterHandler &prm);
+
+    void
+    check_cylinder(const Parameters &parameters) const;
+
+    void
+    check_layers(const Parameters &parameters) const;
+
+    /** Of a box or a rectangle along y, and how many cubes or squares it has there. */
+    std::pair<double, unsigned int>
+    height_and_rows() const;
+  };
+
+
+  /** What is in front of and behind a body of triangles. */
+  struct PlaneParameters
+  {
+    Section section{Geometry::plane_strain, 1.};
+
+    void
+    declare(dealii::ParameterHandler &prm);
+
+    /** @throws InputError for a thickness that would count for nothing */
+    void
+    check(const Parameters &parameters) const;
   };
 
 
@@ -169,14 +220,77 @@ namespace Supple
       stationary
     };
 
-    Problem problem           = Problem::dynamic;
-    double step               = 0.01;
-    unsigned int n_steps      = 100;
-    double newton_tolerance   = 1e-8;
-    unsigned int newton_limit = 100;
+    enum class Method
+    {
+      backward_euler,
+      implicit_backward_euler,
+      implicit_midpoint,
+      sdirk2,
+      trbdf2,
+      esdirk3,
+      esdirk4,
+      esdirk5,
+      explicit2,
+      explicit3,
+      explicit4,
+      explicit5,
+      ida
+    };
+
+    enum class EnergyGuard
+    {
+      off,
+      warn,
+      reject
+    };
+
+    enum class TangentChoice
+    {
+      automatic,
+      frozen,
+      consistent,
+      definite
+    };
+
+    Problem problem               = Problem::dynamic;
+    Method method                 = Method::backward_euler;
+    double step                   = 0.01;
+    unsigned int n_steps          = 100;
+    bool adaptive                 = false;
+    double relative_tolerance     = 1e-3;
+    double displacement_tolerance = 0.; ///< [m]; 0: by the size of the body
+    double velocity_tolerance     = 0.; ///< [m/s]; 0: from that of the displacement
+    double longest_step           = 0.; ///< [s]; 0: any
+    unsigned int maximum_order    = 2;  ///< of IDA
+    TangentChoice tangent         = TangentChoice::automatic;
+    double newton_tolerance       = 1e-8;
+    unsigned int newton_limit     = 100;
+    unsigned int n_retries        = 10;
+    EnergyGuard energy_guard      = EnergyGuard::off;
 
     void
     declare(dealii::ParameterHandler &prm);
+
+    void
+    check(const Parameters &parameters) const;
+
+    /** As it is written. */
+    std::string
+    method_name() const;
+
+    bool
+    is_explicit() const;
+
+    bool
+    has_variable_steps() const;
+
+    /** The time at the end [s]; the load factor of a static problem. */
+    double
+    end() const;
+
+  private:
+    void
+    declare_tolerances(dealii::ParameterHandler &prm);
   };
 
 
@@ -230,9 +344,29 @@ namespace Supple
     std::string points;
     std::string boundaries;
     std::string regions;
+    std::string profiles;
+    dealii::Point<3> profile_center{0., 0., 0.};
+    unsigned int profile_every = 1;
 
     void
     declare(dealii::ParameterHandler &prm);
+  };
+
+
+  struct CheckpointParameters
+  {
+    unsigned int every = 0;  ///< steps; 0: never
+    double minutes     = 0.; ///< of wall time; 0: never
+    bool resume        = false;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+
+    bool
+    wanted() const
+    {
+      return every > 0 || minutes > 0.;
+    }
   };
 
 
@@ -243,6 +377,7 @@ namespace Supple
   struct Parameters
   {
     MeshParameters mesh;
+    PlaneParameters plane;
     MaterialParameters material;
     CorotationParameters corotation;
     DampingParameters damping;
@@ -254,6 +389,7 @@ namespace Supple
     SolverParameters solver;
     OutputParameters output;
     ProbeParameters probes;
+    CheckpointParameters checkpoint;
 
     std::string scene_name;   ///< of the file, without folder and ending
     std::string scene_folder; ///< where files that the scene names are looked for
@@ -302,6 +438,11 @@ namespace Supple
   /** A run of "name: text; name: text" taken apart, in its order. @throws InputError */
   std::vector<std::pair<std::string, std::string>>
   named_list(const std::string &text, const std::string &origin);
+
+
+  /** The boundary id that is the whole of a text. @throws InputError beginning with @p origin */
+  unsigned int
+  boundary_id(const std::string &text, const std::string &origin);
 } // namespace Supple
 
 #endif

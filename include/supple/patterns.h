@@ -60,6 +60,9 @@ namespace Supple
     RangeList(const std::string &words, const Range &range, unsigned int least, unsigned int most);
 
     static RangeList
+    two(const Range &range);
+
+    static RangeList
     three(const Range &range);
 
     static RangeList

@@ -11,11 +11,11 @@ namespace Supple
   class Progress
   {
   public:
-    Progress(unsigned int n_steps, bool wanted, bool plain);
+    Progress(bool wanted, bool plain);
 
     /** Called after each step; writes at most a few times a second. */
     void
-    update(unsigned int step);
+    update(unsigned int step, double part_done);
 
     /** Takes the line away. */
     void
@@ -24,7 +24,6 @@ namespace Supple
   private:
     using Clock = std::chrono::steady_clock;
 
-    const unsigned int n_steps;
     const bool active;
     const bool plain;
     const Clock::time_point start;

@@ -123,6 +123,40 @@ namespace Supple
   }
 
 
+  /**
+   * A proper rotation about z, for every F. polar: the nearest one to F in the plane, of the angle
+   * atan2(F21 - F12, F11 + F22); gram_schmidt: that of the first column of F. The identity where
+   * they say nothing (F in the plane is zero or a reflection) or are not finite.
+   */
+  inline Matrix3<Pack>
+  rotation_in_plane(const RotationMethod method, const Matrix3<Pack> &F)
+  {
+    namespace stdx = std::experimental;
+
+    Matrix3<Pack> R = Matrix3<Pack>::identity();
+    if (method == RotationMethod::none)
+      return R;
+    const bool polar = method == RotationMethod::polar;
+    Pack cosine      = polar ? F(0, 0) + F(1, 1) : F(0, 0);
+    Pack sine        = polar ? F(1, 0) - F(0, 1) : F(1, 0);
+
+    Pack scale           = stdx::max(stdx::abs(cosine), stdx::abs(sine)); // no over- or underflow
+    const auto undefined = !(scale > 0. && cosine - cosine == 0. && sine - sine == 0.);
+
+    stdx::where(undefined, scale)  = 1.;
+    stdx::where(undefined, cosine) = 1.;
+    stdx::where(undefined, sine)   = 0.;
+    cosine /= scale;
+    sine /= scale;
+    const Pack length = stdx::sqrt(cosine * cosine + sine * sine);
+
+    R(0, 0) = R(1, 1) = cosine / length;
+    R(1, 0)           = sine / length;
+    R(0, 1)           = -R(1, 0);
+    return R;
+  }
+
+
   /** What is more than this is no rotation. */
   constexpr double largest_orthogonality_defect = 1e-22;
 

@@ -3,6 +3,7 @@
 
 #include <supple/parameters.h>
 
+#include <deal.II/base/array_view.h>
 #include <deal.II/base/point.h>
 
 #include <array>
@@ -11,21 +12,37 @@
 
 namespace Supple
 {
-  /** A mesh of tetrahedra as plain lists, the same on every process. */
+  /** A mesh of tetrahedra, or of triangles in the plane z = 0, as plain lists, the same on every
+   * process. */
   struct SerialMesh
   {
-    struct BoundaryTriangle
+    /** A triangle, or an edge of a triangle. */
+    struct BoundaryFace
     {
-      std::array<unsigned int, 3> vertices;
+      std::array<unsigned int, 3> vertices; ///< of which the first `dimension` count
       unsigned int boundary_id;
     };
 
-    std::vector<dealii::Point<3>> vertices; ///< [m]
-    std::vector<std::array<unsigned int, 4>> cells;
-    std::vector<unsigned int> materials; ///< of the cells
-    std::vector<BoundaryTriangle> boundary;
+    unsigned int dimension = 3;                     ///< of the cells: 3 tetrahedra, 2 triangles
+    std::vector<dealii::Point<3>> vertices;         ///< [m]
+    std::vector<std::array<unsigned int, 4>> cells; ///< of which the first `dimension` + 1 count
+    std::vector<unsigned int> materials;            ///< of the cells
+    std::vector<BoundaryFace> boundary;
 
-    /** Signed volume of a cell [m^3], positive if it is oriented as it should be. */
+    dealii::ArrayView<const unsigned int>
+    cell_vertices(const std::size_t cell) const
+    {
+      return {cells[cell].data(), dimension + 1};
+    }
+
+    dealii::ArrayView<const unsigned int>
+    face_vertices(const BoundaryFace &face) const
+    {
+      return {face.vertices.data(), dimension};
+    }
+
+    /** Signed volume of a cell [m^3], or area of a triangle [m^2], positive if it is oriented as it
+     * should be. */
     double
     volume(std::size_t cell) const;
   };
@@ -40,10 +57,26 @@ namespace Supple
   /**
    * A box of cubes, each cut into six tetrahedra which share its diagonal from corner 000 to corner
    * 111 (Kuhn 1960). Vertices and cubes are numbered with x fastest, then y, then z. Boundary ids:
-   * 0, 1 (x), 2, 3 (y), 4, 5 (z).
+   * 0, 1 (x), 2, 3 (y), 4, 5 (z). Layers along y have materials of their own.
    */
   SerialMesh
   box_mesh(const MeshParameters &parameters);
+
+
+  /**
+   * A rectangle of squares in the plane z = 0, each cut into two triangles.
+   *
+   *    o---o---o
+   *    |\  |  /|       falling, rising: square (i, j) is cut from vertex (i, j + 1) to (i + 1, j),
+   *    | \ | / |       or from (i, j) to (i + 1, j + 1)
+   *    |  \|/  |
+   *    o---o---o
+   *
+   * Vertices and squares are numbered with x fastest. Boundary ids: 0 left, 1 right, 2 bottom, 3
+   * top. Layers along y have materials of their own.
+   */
+  SerialMesh
+  rectangle_mesh(const MeshParameters &parameters);
 
 
   /**
@@ -65,8 +98,9 @@ namespace Supple
   /**
    * Reads a mesh by Gmsh: .msh (1, 2.2, 4.1, ASCII or binary), legacy .vtk, .unv, .mesh, .bdf.
    * Physical volumes become material ids and physical surfaces boundary ids; without them the
-   * material is 0 and the whole surface boundary 0.
-   * @throws InputError in words that help if there are no tetrahedra, or Gmsh can't read the file
+   * material is 0 and the whole surface boundary 0. Triangles in the plane z = 0 without
+   * tetrahedra are a plane body, with the same from physical surfaces and curves.
+   * @throws InputError in words that help if there is neither, or Gmsh can't read the file
    */
   SerialMesh
   read_mesh(const std::string &file, const std::string &origin);

@@ -1,9 +1,11 @@
 #ifndef supple_simulation_h
 #define supple_simulation_h
 
+#include <supple/checkpoint.h>
 #include <supple/diagnostics.h>
 #include <supple/frames.h>
 #include <supple/probes.h>
+#include <supple/profiles.h>
 #include <supple/progress.h>
 #include <supple/tables.h>
 #include <supple/time_integrator.h>
@@ -52,12 +54,39 @@ namespace Supple
     void
     print_mesh_details() const;
 
+    /** Which rigid motions of the body are free. */
+    std::string
+    free_rigid_motions() const;
+
+    /** Of a plane body, to begin the description of its model with. */
+    std::string
+    section_in_words() const;
+
     /** What the user should know, in sentences. */
     std::vector<std::string>
     warnings() const;
 
     void
     open_output();
+
+    /** Makes the folder and takes the results of an earlier run out of it. */
+    void
+    clear_folder() const;
+
+    /** On the first process, anew or after so many rows. */
+    void
+    open_tables();
+
+    /** Goes on from the checkpoint in the output folder, if that is wanted and there is one. */
+    void
+    resume();
+
+    void
+    write_checkpoint();
+
+    /** What a checkpoint keeps beside the state. */
+    std::vector<Vector *>
+    kept_vectors();
 
     void
     time_loop();
@@ -75,9 +104,9 @@ namespace Supple
     double
     seconds_since_start() const;
 
-    /** [s]; the load factor of a static problem */
+    /** Without set-up, with the runs that this one goes on from. */
     double
-    time_of(unsigned int step) const;
+    seconds_of_run() const;
 
     const Parameters parameters;
     const std::string folder;
@@ -93,6 +122,7 @@ namespace Supple
     const Constraints constraints;
     const Loads loads;
     const Probes probes;
+    Profiles profiles;
     ImplicitOperator implicit_operator;
     std::unique_ptr<LinearSolver> solver;
     State state;
@@ -102,8 +132,11 @@ namespace Supple
     std::unique_ptr<CsvFile> history;
     std::unique_ptr<CsvFile> probe_history;
     std::unique_ptr<Frames> frames;
+    Checkpoint checkpoint;
 
-    unsigned int step = 0;
+    unsigned int step     = 0;
+    bool resumed          = false;
+    double seconds_before = 0.; ///< of the runs that this one goes on from
     Measurement now;
     double error_estimate = 0.; ///< sum of the local errors [m]
     Vector start_displacement;

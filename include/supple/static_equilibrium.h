@@ -9,10 +9,10 @@ namespace Supple
    * Equilibrium f_int(u) = s f under the loads at time 1, with the load factor s growing in steps
    * to 1.
    *
-   * Each step is Newton's method with the operator K' of the present rotations. It is positive
-   * definite, so each correction goes downhill in the energy W(u) - s f.u of polar rotations, and a
-   * line search makes sure that it does not go too far. Linear elasticity needs one correction, and
-   * one operator for all steps.
+   * Each step is Newton's method with the consistent tangent of polar rotations; where that does
+   * not lead downhill in the energy W(u) - s f.u, with its definite projection, which does. A line
+   * search makes sure that a correction does not go too far. Linear elasticity needs one
+   * correction, and one operator for all steps.
    */
   class StaticEquilibrium : public TimeIntegrator
   {
@@ -20,10 +20,16 @@ namespace Supple
     StaticEquilibrium(const Model &model);
 
     StepReport
-    advance(State &state, double load_factor, bool observed) override;
+    advance(State &state, bool observed) override;
 
     std::string
     name() const override;
+
+    nlohmann::json
+    save() override;
+
+    void
+    load(const nlohmann::json &saved) override;
 
   private:
     /** s f - f_int(u), with the rotations updated to u; the held entries are the reactions with a
@@ -39,13 +45,20 @@ namespace Supple
     void
     add_correction(Vector &displacement, double load_factor);
 
+    void
+    assemble(const Vector &displacement, Tangent tangent);
+
+    /** Sets the correction. @return the iterations of the linear solver */
+    unsigned int
+    find_correction(const Vector &displacement);
+
     /** Newton's iterations of one load step. */
     void
     find_equilibrium(Vector &displacement, double load_factor, StepReport &report);
 
-    double force_accuracy   = 0.; ///< what round-off leaves of forces in balance [N]
-    bool prepared           = false;
-    double last_load_factor = 0.;
+    double force_accuracy = 0.; ///< what round-off leaves of forces in balance [N]
+    bool prepared         = false;
+    unsigned int n_done   = 0; ///< load steps
     Vector residual, correction, free_residual;
   };
 } // namespace Supple

@@ -24,6 +24,8 @@ namespace Supple
     bool probes           = false;
     bool observed         = false; ///< whether energies were measured
     Measurement last;
+    Extremes extremes;
+    double distance_from_rest = 0.; ///< of the vertex that is farthest from its place at rest [m]
 
     std::string
     to_json(const Model &model) const;

@@ -14,9 +14,17 @@ namespace Supple
     /** @throws WriteError if the file can't be written */
     CsvFile(const std::string &file, const std::vector<std::string> &column_names);
 
+    /** Goes on with a file after its first @p n_rows rows; what came after them is cut off.
+     * @throws WriteError if the file can't be written, InputError if it has fewer */
+    CsvFile(const std::string &file, unsigned long n_rows);
+
     /** @throws WriteError if the disk is full */
     void
     write_row(const std::vector<double> &values);
+
+    /** All at once. @throws WriteError if the disk is full */
+    void
+    write_rows(const std::vector<std::vector<double>> &rows);
 
   private:
     const std::string file;

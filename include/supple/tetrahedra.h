@@ -4,6 +4,7 @@
 #include <supple/block_matrix.h>
 #include <supple/material.h>
 #include <supple/rotation.h>
+#include <supple/section.h>
 
 #include <array>
 #include <cstdint>
@@ -11,10 +12,26 @@
 
 namespace Supple
 {
-  /** One linear tetrahedron as Tetrahedra wants to know it. */
+  /**
+   * How the operator K' knows of the rotations.
+   *
+   * - frozen: as if they stayed what they are: positive definite, but no derivative of the force.
+   * - consistent: the derivative of the force of polar rotations, which is symmetric but may be
+   *   indefinite where the body is compressed.
+   * - definite: the same, projected cell by cell to the nearest positive semidefinite one.
+   */
+  enum class Tangent
+  {
+    frozen,
+    consistent,
+    definite
+  };
+
+
+  /** One linear tetrahedron, or triangle, as Tetrahedra wants to know it. */
   struct Tetrahedron
   {
-    std::array<unsigned int, 4> nodes; ///< local node numbers, positively oriented
+    std::array<unsigned int, 4> nodes; ///< local node numbers, positively oriented; 3 of a triangle
     IsotropicMaterial material;
     bool owned; ///< counted in sums: true on exactly one process
   };
@@ -57,7 +74,26 @@ namespace Supple
    *          \|/         K_ab = V (lambda h_a h_b^T + mu h_b h_a^T + mu (h_a.h_b) I),   h_a = R g_a
    *           1
    *
-   * (Mueller & Gross 2004; Hauth & Strasser 2004.) Displacements, velocities and forces are arrays
+   * (Mueller & Gross 2004; Hauth & Strasser 2004.) If polar rotations are to follow the
+   * displacement (Chao et al. 2010; McAdams et al. 2011), the stress has one more derivative: with
+   * the axial vector a = sum_a g_a x R^T du_a of twice the skew part of R^T dF,
+   *
+   *       dW^2 = (frozen) + V a.H a,  H = mu I - (2 mu - lambda tr(S - I)) (tr(S) I - S)^-1,
+   *
+   * which acts on skew parts alone, as the frozen part does on symmetric ones: it can be projected
+   * to a positive semidefinite H by itself.
+   *
+   * In a plane body (Section) the cells are triangles. Each is taken as a tetrahedron whose fourth
+   * node has no gradient and no place in the matrix, and which is as thick as its section: then
+   * F33 = 1. In an axisymmetric one with centroids at r
+   *
+   *           F33 = 1 + sum_a c u_a.e_x,   c = 1/(3 r),   V = 2 pi r A
+   *           f_a += V P33 c e_x
+   *           K_ab = V (lambda (h_a + c e_x) (h_b + c e_x)^T + mu h_b h_a^T + mu (h_a.h_b) I
+   *                     + 2 mu c^2 e_x e_x^T)
+   *
+   * for R turns about z, so that neither F33 nor the direction e_x of its change take part in it.
+   * Displacements, velocities and forces are arrays
    * of 3 n_local doubles, node by node; ghost values must be valid in what is read, and those of
    * what is written are meaningless.
    */
@@ -73,7 +109,8 @@ namespace Supple
                unsigned int n_owned,
                const std::vector<Tetrahedron> &cells,
                bool lumped_mass,
-               double vertex_mass);
+               double vertex_mass,
+               const Section &section = Section());
 
     /** Finds the place of each cell's blocks in matrices with this pattern. */
     void
@@ -92,20 +129,31 @@ namespace Supple
     void
     add_stiffness_product(const double *w, double *y) const;
 
+    /** Computes what the derivatives of the rotations add to K'; kept until called again. */
+    void
+    update_rotation_stiffness(Tangent tangent, const double *displacement);
+
+    /** y += (that part of K') w */
+    void
+    add_rotation_product(const double *w, double *y) const;
+
     /** y += M w on all nodes, those held included. */
     void
     add_mass_product(const double *w, double *y) const;
 
-    /** A += mass_factor M + stiffness_factor K'. */
+    /** A += mass_factor M + stiffness_factor K' + rotation_factor (what rotations add to K'). */
     void
-    add_tangent(double mass_factor, double stiffness_factor, SymmetricBlockMatrix &A) const;
+    add_tangent(double mass_factor,
+                double stiffness_factor,
+                double rotation_factor,
+                SymmetricBlockMatrix &A) const;
 
     /** M += the mass matrix. */
     void
     add_mass(SymmetricScalarMatrix &M) const;
 
-    /** Mass [kg] of each local node, that of a cell shared evenly: the row sums of the mass matrix.
-     */
+    /** Mass [kg] of each local node, that of a cell shared among its nodes: the row sums of the
+     * mass matrix. */
     void
     add_nodal_mass(double *mass) const;
 
@@ -119,7 +167,8 @@ namespace Supple
     double
     round_off_square() const;
 
-    /** @p velocity may be null: then nothing moves. */
+    /** @p velocity may be null: then nothing moves. An axisymmetric body has no momenta but that
+     * along its axis. */
     CellSums
     sums(const double *displacement, const double *velocity) const;
 
@@ -144,6 +193,13 @@ namespace Supple
       std::array<std::array<std::uint32_t, n_lanes>, 4> diagonal;
     };
 
+    /** What an axisymmetric batch needs beside. */
+    struct Hoop
+    {
+      Pack gradient; ///< c = 1/(3 r) [1/m], r the centroid's distance from the axis
+      std::array<Pack, 4> nodal_radius; ///< of each node, over r; zero for the fourth
+    };
+
     using NodalPack = std::array<std::array<Pack, 3>, 4>;
 
     static NodalPack
@@ -152,8 +208,12 @@ namespace Supple
     static void
     scatter(const Batch &batch, const NodalPack &values, double *nodal);
 
-    static Matrix3<Pack>
-    gradient(const Batch &batch, const NodalPack &values);
+    void
+    add_cell(std::size_t number, const Tetrahedron &cell);
+
+    /** With the hoop strain of an axisymmetric body in the last entry. */
+    Matrix3<Pack>
+    gradient(std::size_t batch, const NodalPack &values) const;
 
     /** R, the identity for linear elasticity. */
     Matrix3<Pack>
@@ -171,18 +231,44 @@ namespace Supple
     stress(const Batch &batch, const Matrix3<Pack> &strain);
 
     Matrix3<Pack>
-    deformation_gradient(const Batch &batch, const double *displacement) const;
+    deformation_gradient(std::size_t batch, const double *displacement) const;
 
     void
     add_stress_divergence(std::size_t batch, const Matrix3<Pack> &strain, double *force) const;
 
-    /** Entries (a, a) and (a, b) of a cell's mass matrix. */
-    std::pair<Pack, Pack>
-    mass_entries(const Batch &batch) const;
+    /** Entry (a, c) of a cell's mass matrix. */
+    Pack
+    mass_entry(std::size_t batch, unsigned int a, unsigned int c) const;
+
+    /** What a cell gives of its mass to a node, over all of it. */
+    Pack
+    nodal_share(std::size_t batch, unsigned int a) const;
+
+    /** The integral of shape functions times the linear function with these values at the nodes,
+     * for a cell of this weight; lumped: with all of its weight at the nodes. */
+    NodalPack
+    integral(std::size_t batch, const Pack &weight, bool lumped, const NodalPack &values) const;
 
     /** The cell's mass matrix times nodal values. */
     NodalPack
-    mass_product(const Batch &batch, const NodalPack &values) const;
+    mass_product(std::size_t batch, const NodalPack &values) const;
+
+    /** add_tangent() for the cells of a batch. */
+    template <bool axisymmetric>
+    void
+    add_tangent_of(std::size_t batch,
+                   double mass_factor,
+                   double stiffness_factor,
+                   double rotation_factor,
+                   SymmetricBlockMatrix &A) const;
+
+    /** R g_a */
+    NodalPack
+    rotated_gradients(std::size_t batch) const;
+
+    /** The columns of V [h_a]^T H [h_c] in the body's frame, [h] w = h x w. */
+    std::array<std::array<Pack, 3>, 3>
+    rotation_block(std::size_t batch, const NodalPack &h, unsigned int a, unsigned int c) const;
 
     void
     add_deformation(const double *displacement, CellSums &sums) const;
@@ -199,8 +285,13 @@ namespace Supple
     const unsigned int n_owned; ///< nodes
     const bool lumped_mass;
     const double vertex_mass;
+    const Section section;
+    const unsigned int n_nodes; ///< of a cell
+    const double pair_share;    ///< what two nodes of a cell share of its mass
     std::vector<Batch> batches;
+    std::vector<Hoop> hoops; ///< of an axisymmetric body, otherwise none
     std::vector<Matrix3<Pack>> rotations;
+    std::vector<Matrix3<Pack>> rotation_stiffness; ///< V R H R^T; empty for frozen rotations
     std::vector<Slots> slots;
     std::vector<std::array<double, 3>> positions;
   };

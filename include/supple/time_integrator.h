@@ -5,7 +5,10 @@
 #include <supple/linear_solver.h>
 #include <supple/loads.h>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace Supple
@@ -13,17 +16,21 @@ namespace Supple
   /** What a step has to tell. */
   struct StepReport
   {
+    double time                    = 0.; ///< at the end of the step [s]; the load factor if static
     double dt                      = 0.; ///< [s]
     unsigned int newton_iterations = 0;
     unsigned int linear_iterations = 0;
-    double local_error             = 0.; ///< estimate, largest over all vertices [m]
-    double load_work               = 0.; ///< by the body force [J]
+    double load_work               = 0.; ///< by all loads but gravity, and by moved vertices [J]
+
+    /** Estimate, largest over all vertices [m]; where a method has none, not a number. */
+    double local_error = 0.;
 
     /**
      * Energy the step took out of the motion or put into the springs [J]: what the elastic energy
-     * did not get of it is dissipated.
+     * did not get of it is dissipated. Where a method does not know it, what is missing in the
+     * balance of energies is taken for dissipated.
      */
-    double expended = 0.;
+    std::optional<double> expended;
   };
 
 
@@ -46,8 +53,7 @@ namespace Supple
   public:
     virtual ~TimeIntegrator() = default;
 
-    /** Backward Euler, or the steps of a static problem; the rotations become those of the
-     * displacement. */
+    /** The method a scene asks for; the rotations become those of the displacement. */
     static std::unique_ptr<TimeIntegrator>
     create(const Model &model, const Vector &displacement);
 
@@ -55,12 +61,27 @@ namespace Supple
      * One step.
      * @param state    displacement and, if the problem is dynamic, velocity; as before if the step
      * fails
-     * @param time     at the end of the step [s]; the load factor of a static problem
      * @param observed whether anybody asks for energies and reactions
      * @throws ComputationError
      */
     virtual StepReport
-    advance(State &state, double time, bool observed) = 0;
+    advance(State &state, bool observed) = 0;
+
+    /** What a checkpoint has to keep of it beside the state; and what the steps that follow depend
+     * on else is forgotten, so that they are the same as those of a run that goes on from there. */
+    virtual nlohmann::json
+    save();
+
+    virtual void
+    load(const nlohmann::json &saved);
+
+    bool
+    finished() const
+    {
+      return time >= end * (1. - 1e-12);
+    }
+
+    const double end; ///< [s]; the load factor of a static problem
 
     virtual std::string
     name() const = 0;
@@ -74,13 +95,14 @@ namespace Supple
     }
 
   protected:
-    TimeIntegrator(const Model &model);
+    TimeIntegrator(const Model &model, double end);
 
     /** Keeps the held entries of a force and sets all others to zero. */
     void
     set_reactions(const Vector &force);
 
     const Model model;
+    double time = 0.; ///< [s]; the load factor of a static problem
 
   private:
     Vector reaction;

@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# Runs the scenes of doc/gallery.md and doc/volumes.md and draws their pictures into doc/pictures: scripts/gallery.sh
+# draws all, scripts/gallery.sh NAME... some. SUPPLE=path takes another executable instead of building one.
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
+
+known="" wanted=" $* "
+if [ -n "${SUPPLE:-}" ]; then
+  supple=$(realpath "$SUPPLE")
+else
+  install_missing run
+  build "$root/build"
+  supple=$root/build/supple
+fi
+cd "$root"
+
+# run PICTURE SCENE...: runs the scenes, each in output/ and its name, if the picture is wanted; fails if it is not.
+run() {
+  known+=" $1"
+  if [[ "$wanted" != "  " && "$wanted" != *" $1 "* ]]; then return 1; fi
+  echo "doc/pictures/$1.png"
+  local scene
+  for scene in "${@:2}"; do
+    "$supple" "parameters/$scene.prm" --output "output/$scene" --quiet \
+      --set "Output/Frames=every" ${settings:+--set "$settings"} || exit
+  done
+}
+
+# show PICTURE "SCENE [OTHER]" [options of render.py]: a scene at three instants, and another with it.
+show() {
+  local scenes=($2)
+  if run "$1" "${scenes[@]}"; then
+    scripts/render.sh "output/${scenes[0]}" "doc/pictures/$1.png" ${scenes[1]:+--below "output/${scenes[1]}"} "${@:3}"
+  fi
+}
+
+# volumes PICTURE SCENE OTHER: the volume of all cells over time.
+volumes() {
+  if run "$@"; then scripts/volumes.sh "output/$2" "output/$3" "doc/pictures/$1.png"; fi
+}
+
+growing=(--names linear corotational --field volume_ratio)
+loading=(--times 0 0.5 1 --instants "without load" "half the load" "all of it")
+lying=(--stacked --up 1 0 0 --camera 0 1 0.35)                 # the axis to the right, x upwards
+held_free=(--names held free --times 0 0.05 0.5)
+
+show bar bar/large --times 0.07 0.21 0.49
+show bar-fast "bar/fast-linear bar/fast" "${growing[@]}" --times 0.06 0.12 0.42
+settings=Time/Steps=2 show bar-static bar/static "${loading[@]}" --enlarge 20
+show mushroom "mushroom/mushroom-linear mushroom/mushroom" "${growing[@]}" --outline silhouette \
+  --times 0 2 4.4 --camera -0.15 -1 0.05
+show armadillo "armadillo/armadillo-linear armadillo/armadillo" "${growing[@]}" --outline silhouette \
+  --times 0 0.5 0.9 --camera -1.2 -0.8 0.25
+
+show vein-test-1 "vein/test-1 vein/test-1-free" "${lying[@]}" "${held_free[@]}" --range 0 13e3 --camera 0 1 -0.6
+show vein-test-2 "vein/test-2 vein/test-2-free" "${lying[@]}" "${held_free[@]}" --range 0 48e3
+show vein-test-3 "vein/test-3 vein/test-3-free" "${lying[@]}" "${held_free[@]}" --range 0 205e3
+show vein-test-4 "vein/test-4 vein/test-4-free" "${lying[@]}" "${held_free[@]}" --range 0 76e3 --up 0 -1 0 --camera 1 0 0.35
+show vein-test-5 vein/test-5 "${lying[@]}" --times 0.02 0.05 0.5 --enlarge 20 --width 1000 \
+  --field displacement_2 --title "displacement along z" --range -0.000024 0.000024
+show vein-pulse vein/pulse "${lying[@]}" --times 0.355 0.9 1.16 --enlarge 4 --field displacement --width 1000 \
+  --instants "systole, t = 0.355 s" "diastole, t = 0.9 s" "systole, t = 1.16 s"
+settings=Time/Steps=2 show thick-cylinder validation/thick-cylinder "${loading[@]}" --enlarge 150
+
+volumes volumes-mushroom mushroom/mushroom-linear mushroom/mushroom
+volumes volumes-armadillo armadillo/armadillo-linear armadillo/armadillo
+volumes volumes-bar bar/large-linear bar/large
+volumes volumes-bar-fast bar/fast-linear bar/fast
+
+for name in $wanted; do
+  if [[ " $known " != *" $name "* ]]; then
+    echo "There is no picture $name. There are:$known" >&2
+    exit 1
+  fi
+done

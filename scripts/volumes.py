@@ -1,0 +1,67 @@
+"""Draws the volume of all cells over time, as a part of the volume at rest, of two runs side by side.
+
+    scripts/volumes.sh OUTPUT_A OUTPUT_B PICTURE.png [--names linear corotational]
+
+A thin line for each cell, the smallest and largest of all cells in bold. The numbers come from the VTU files; for all
+steps, run the scenes with --set "Output/Frames=every".
+"""
+
+import argparse
+import pathlib
+
+import matplotlib
+matplotlib.use("Agg")
+import matplotlib.pyplot
+import numpy
+from PIL import Image
+from vtk.util.numpy_support import vtk_to_numpy
+
+import frames
+
+
+def volumes(folder):
+    """Times, and the volume ratio of each cell (columns) at each time (rows)."""
+    times, rows = [], []
+    for time, file in frames.read_frames(folder):
+        grid = frames.read_grid(file)
+        vertices, offsets = grid.GetCells().GetConnectivityArray(), grid.GetCells().GetOffsetsArray()
+        first = vtk_to_numpy(vertices)[vtk_to_numpy(offsets)[:-1]]    # of each cell; no two cells share a vertex
+        rows.append(vtk_to_numpy(grid.GetPointData().GetArray("volume_ratio"))[first])
+        times.append(time)
+    return numpy.array(times), numpy.array(rows)
+
+
+def draw(axes, times, ratios, name):
+    lines = numpy.stack(numpy.broadcast_arrays(times[:, None], ratios), axis=2).transpose(1, 0, 2)
+    axes.add_collection(matplotlib.collections.LineCollection(lines, colors="#5b7fa6", linewidths=0.4, alpha=0.35))
+    axes.plot(times, ratios.max(axis=1), color="#b3192b", linewidth=1.8)
+    axes.plot(times, ratios.min(axis=1), color="#1f3a7a", linewidth=1.8)
+    axes.axhline(1, color="black", linewidth=0.6)
+    axes.set_title(f"{name}: {ratios.min():.3f} to {ratios.max():.3f}")
+    axes.set_xlabel("time in s")
+    axes.set_xlim(times[0], times[-1])
+    axes.grid(alpha=0.3)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folders", type=pathlib.Path, nargs=2, help="output folders of two runs")
+    parser.add_argument("picture", type=pathlib.Path, help="PNG file to write")
+    parser.add_argument("--names", nargs=2, default=("linear", "corotational"), help="what the runs are called")
+    arguments = parser.parse_args()
+
+    figure, both = matplotlib.pyplot.subplots(1, 2, figsize=(10, 4.2), sharex=True, sharey=True)
+    for axes, folder, name in zip(both, arguments.folders, arguments.names):
+        times, ratios = volumes(folder)
+        draw(axes, times, ratios, name)
+        print(f"{folder}: {ratios.shape[1]} cells, {len(times)} frames, "
+              f"smallest {ratios.min():.4f}, largest {ratios.max():.4f}")
+    both[0].set_ylabel("volume / volume at rest")
+    figure.tight_layout()
+    figure.savefig(arguments.picture, dpi=100)
+    # Few colours are enough, and make a small file.
+    Image.open(arguments.picture).convert("RGB").quantize(48).save(arguments.picture, optimize=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,400 @@
+#include <supple/arkode_integrator.h>
+#include <supple/error.h>
+
+#include <arkode/arkode_arkstep.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace Supple
+{
+  using Method = TimeParameters::Method;
+
+  namespace
+  {
+    /** A method of one stage at c, without an error estimate. */
+    ARKodeButcherTable
+    one_stage_table(const int order, double c)
+    {
+      double b = 1.;
+      return ARKodeButcherTable_Create(1, order, 0, &c, &c, &b, nullptr);
+    }
+
+
+    ARKodeButcherTable
+    table_of(const Method method)
+    {
+      switch (method)
+        {
+          case Method::backward_euler:
+          case Method::implicit_backward_euler:
+            return one_stage_table(1, 1.);
+          case Method::implicit_midpoint:
+            return one_stage_table(2, 0.5);
+          case Method::sdirk2:
+            return ARKodeButcherTable_LoadDIRK(ARKODE_SDIRK_2_1_2);
+          case Method::trbdf2:
+            return ARKodeButcherTable_LoadDIRK(ARKODE_TRBDF2_3_3_2);
+          case Method::esdirk3:
+            return ARKodeButcherTable_LoadDIRK(ARKODE_ESDIRK325L2SA_5_2_3);
+          case Method::esdirk4:
+            return ARKodeButcherTable_LoadDIRK(ARKODE_ESDIRK436L2SA_6_3_4);
+          case Method::esdirk5:
+            return ARKodeButcherTable_LoadDIRK(ARKODE_ESDIRK547L2SA2_7_4_5);
+          case Method::explicit2:
+            return ARKodeButcherTable_LoadERK(ARKODE_HEUN_EULER_2_1_2);
+          case Method::explicit3:
+            return ARKodeButcherTable_LoadERK(ARKODE_BOGACKI_SHAMPINE_4_2_3);
+          case Method::explicit4:
+            return ARKodeButcherTable_LoadERK(ARKODE_ZONNEVELD_5_3_4);
+          case Method::explicit5:
+            return ARKodeButcherTable_LoadERK(ARKODE_DORMAND_PRINCE_7_4_5);
+          case Method::ida:
+            break;
+        }
+      throw ComputationError("ARKode has no such method");
+    }
+
+
+    EquationOfMotion::Rotations
+    rotations_of(const Method method)
+    {
+      return method == Method::backward_euler ? EquationOfMotion::Rotations::frozen
+                                              : EquationOfMotion::Rotations::following;
+    }
+
+
+    EquationOfMotion::HeldVelocity
+    held_velocity_of(const Method method)
+    {
+      return method == Method::backward_euler || method == Method::implicit_backward_euler
+               ? EquationOfMotion::HeldVelocity::difference
+               : EquationOfMotion::HeldVelocity::derivative;
+    }
+  } // namespace
+
+
+  ArkodeIntegrator::ArkodeIntegrator(const Model &model)
+    : DynamicIntegrator(model,
+                        rotations_of(model.parameters.time.method),
+                        held_velocity_of(model.parameters.time.method))
+    , mass_system(context)
+    , error(equation.n_unknowns(), model.body.mesh.communicator, context)
+    , last_size(settings.step)
+  {
+    create_memory();
+    set_table();
+    ARKStepSVtolerances(memory, set_tolerances(), absolute_tolerances);
+    if (!settings.is_explicit())
+      set_linear_systems();
+    if (adaptive)
+      {
+        ARKStepSetMaxStep(memory, settings.longest_step);
+      }
+    else
+      set_step_size(settings.step);
+  }
+
+
+  ArkodeIntegrator::~ArkodeIntegrator()
+  {
+    ARKStepFree(&memory);
+  }
+
+
+  std::string
+  ArkodeIntegrator::name() const
+  {
+    return settings.method_name() + " (ARKode" + (adaptive ? ", variable steps)" : ")");
+  }
+
+
+  nlohmann::json
+  ArkodeIntegrator::save()
+  {
+    started = false;
+    if (adaptive)
+      ARKStepGetCurrentStep(memory, &last_size);
+    return {{"time", time}, {"grid", grid}, {"last_size", last_size}};
+  }
+
+
+  void
+  ArkodeIntegrator::load(const nlohmann::json &saved)
+  {
+    time      = saved.at("time");
+    grid      = saved.at("grid");
+    last_size = saved.at("last_size");
+  }
+
+
+  void
+  ArkodeIntegrator::create_memory()
+  {
+    const ARKRhsFn rate = [](sunrealtype time, N_Vector y, N_Vector f, void *self) {
+      auto &integrator = *static_cast<ArkodeIntegrator *>(self);
+      return integrator.failure.guard(
+        [&] { integrator.evaluate(time, Sundials::data(y), Sundials::data(f)); });
+    };
+    memory = settings.is_explicit() ? ARKStepCreate(rate, nullptr, 0., unknowns, context)
+                                    : ARKStepCreate(nullptr, rate, 0., unknowns, context);
+    Compatibility::collect_arkode_errors(memory, context.message);
+    ARKStepSetUserData(memory, this);
+    ARKStepSetMaxNumSteps(memory, -1);
+    ARKStepSetMaxHnilWarns(memory, -1);
+  }
+
+
+  void
+  ArkodeIntegrator::set_table()
+  {
+    const ARKodeButcherTable table = table_of(settings.method);
+    const int order                = table->q;
+    const int status               = settings.is_explicit()
+                                       ? ARKStepSetTables(memory, order, table->p, nullptr, table)
+                                       : ARKStepSetTables(memory, order, table->p, table, nullptr);
+    ARKodeButcherTable_Free(table);
+    if (status != 0)
+      throw_what_failed();
+  }
+
+
+  void
+  ArkodeIntegrator::set_linear_systems()
+  {
+    system.solve = [this](double *x, const double *b) {
+      return failure.guard([&] {
+        if (linear) // one solution must be right
+          {
+            sunrealtype gamma;
+            ARKStepGetCurrentGamma(memory, &gamma);
+            equation.set_gamma(gamma);
+            equation.solve(x, b);
+          }
+        else
+          equation.solve_newton(x, b);
+      });
+    };
+    mass_system.solve = [this](double *x, const double *b) {
+      return failure.guard([&] { equation.solve_mass(x, b); });
+    };
+    mass_system.product = [this](double *y, const double *x) {
+      return failure.guard([&] { equation.mass_product(y, x); });
+    };
+
+    ARKStepSetLinearSolver(memory, system.solver, system.matrix);
+    ARKStepSetLinSysFn(memory,
+                       [](sunrealtype time,
+                          N_Vector y,
+                          N_Vector,
+                          SUNMatrix,
+                          SUNMatrix,
+                          Compatibility::Boolean,
+                          Compatibility::Boolean *current,
+                          sunrealtype gamma,
+                          void *self,
+                          N_Vector,
+                          N_Vector,
+                          N_Vector) {
+                         auto &integrator = *static_cast<ArkodeIntegrator *>(self);
+                         *current         = 1;
+                         return integrator.failure.guard(
+                           [&] { integrator.equation.linearize(time, Sundials::data(y), gamma); });
+                       });
+    ARKStepSetLinearSolutionScaling(memory, 0);
+
+    ARKStepSetMassLinearSolver(memory, mass_system.solver, mass_system.matrix, 0);
+    ARKStepSetMassFn(memory, [](sunrealtype, SUNMatrix, void *, N_Vector, N_Vector, N_Vector) {
+      return 0;
+    });
+
+    // The force at the end of a stage follows from the solution of its equation.
+    ARKStepSetDeduceImplicitRhs(memory, 1);
+    ARKStepSetPredictorMethod(memory, 0);
+    set_linear(settings.method == Method::backward_euler ||
+               (model.body.rotation == RotationMethod::none && !model.loads.follow()));
+  }
+
+
+  void
+  ArkodeIntegrator::set_linear(const bool is_linear)
+  {
+    linear = is_linear;
+    if (linear)
+      {
+        ARKStepSetLinear(memory, model.body.rotation == RotationMethod::none ? 0 : 1);
+        return;
+      }
+    ARKStepSetNonlinear(memory);
+    if (!adaptive)
+      {
+        ARKStepSetMaxNonlinIters(memory, settings.newton_limit);
+        ARKStepSetNonlinConvCoef(memory, 1.);
+        ARKStepSetLSetupFrequency(memory, 1);
+      }
+  }
+
+
+  void
+  ArkodeIntegrator::evaluate(const double time, const double *const y, double *const f)
+  {
+    equation.evaluate(f, time, y);
+    if (settings.is_explicit())
+      equation.solve_mass(f, f);
+  }
+
+
+  void
+  ArkodeIntegrator::restart(const State &state)
+  {
+    equation.get_unknowns(unknowns.data(), state);
+    ARKStepReset(memory, time, unknowns);
+    if (adaptive)
+      {
+        ARKStepSetStopTime(memory, end); // which the line above has made it forget
+        ARKStepSetInitStep(memory, last_size);
+      }
+    started = true;
+  }
+
+
+  bool
+  ArkodeIntegrator::evolve()
+  {
+    context.message.clear();
+    const int status = ARKStepEvolve(memory, 2. * end, unknowns, &ode_time, ARK_ONE_STEP);
+    return status >= 0;
+  }
+
+
+  StepReport
+  ArkodeIntegrator::take_step(State &state)
+  {
+    if (!started)
+      restart(state);
+    StepReport report;
+    if (adaptive)
+      {
+        if (!evolve())
+          throw_what_failed();
+        report.time = ode_time;
+        ARKStepGetEstLocalErrors(memory, error);
+        report.local_error = largest_displacement(error.data());
+      }
+    else
+      report = take_fixed_step(state);
+    equation.set_state(state, ode_time, unknowns.data());
+
+    long count = 0;
+    if (!settings.is_explicit())
+      ARKStepGetNumNonlinSolvIters(memory, &count);
+    report.newton_iterations = linear ? 0 : count - newton_iterations;
+    newton_iterations        = count;
+    model.effort.newton_iterations += report.newton_iterations;
+    return report;
+  }
+
+
+  double
+  ArkodeIntegrator::next_step_size() const
+  {
+    if (time == grid * settings.step && std::min(last_size, size_limit) > 0.999 * settings.step)
+      return settings.step; // the very same number: nothing is factorized anew
+    const double rest   = (grid + 1) * settings.step - time;
+    const double longer = std::min(2. * last_size, size_limit);
+    return longer > 0.999 * rest ? rest : longer;
+  }
+
+
+  /** First the same step with rotations that follow, then half of it. */
+  bool
+  ArkodeIntegrator::make_safer()
+  {
+    const bool smaller = !equation.rotations_are_frozen();
+    if (smaller && last_size < settings.step * std::pow(0.5, settings.n_retries - 0.5))
+      return false;
+    if (!smaller)
+      {
+        equation.set_rotations(EquationOfMotion::Rotations::following);
+        set_linear(model.body.rotation == RotationMethod::none);
+      }
+    size_limit = smaller ? 0.5 * last_size : last_size;
+    if (time == grid * settings.step) // it is where the step to be done again has landed
+      --grid;
+    started = false;
+    return true;
+  }
+
+
+  void
+  ArkodeIntegrator::accept_step()
+  {
+    size_limit = std::numeric_limits<double>::max();
+    if (settings.method == Method::backward_euler && !equation.rotations_are_frozen())
+      {
+        equation.set_rotations(EquationOfMotion::Rotations::frozen);
+        set_linear(true);
+      }
+  }
+
+
+  void
+  ArkodeIntegrator::set_step_size(const double size)
+  {
+    if (size != set_size)
+      ARKStepSetFixedStep(memory, size);
+    set_size = size;
+  }
+
+
+  void
+  ArkodeIntegrator::throw_at(const double size)
+  {
+    try
+      {
+        throw_what_failed();
+      }
+    catch (const ComputationError &error)
+      {
+        if (size == settings.step)
+          throw;
+        std::ostringstream text;
+        text << error.what() << ", even in a step of " << size << " s";
+        throw ComputationError(text.str());
+      }
+  }
+
+
+  StepReport
+  ArkodeIntegrator::take_fixed_step(State &state)
+  {
+    double size = next_step_size();
+    set_step_size(size);
+    const double smallest = settings.step * std::pow(0.5, settings.n_retries + 0.5);
+    while (!evolve())
+      {
+        if (0.5 * size < smallest)
+          throw_at(size);
+        failure.forget();
+        ++model.effort.rejected_steps;
+        model.body.update_rotations(state.block(0), model.effort);
+        restart(state);
+        set_step_size(size *= 0.5);
+      }
+    last_size = size;
+
+    StepReport report;
+    report.local_error = std::numeric_limits<double>::quiet_NaN();
+    report.time        = time + size;
+    const double next  = (grid + 1) * settings.step;
+    if (report.time > next - 1e-9 * settings.step)
+      {
+        report.time = next;
+        ++grid;
+      }
+    return report;
+  }
+} // namespace Supple

@@ -1,0 +1,238 @@
+#include <supple/distributed_mesh.h>
+
+#include <supple/compatibility.h>
+#include <supple/error.h>
+
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/base/utilities.h>
+#include <deal.II/distributed/fully_distributed_tria.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_fe_field.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/tria_description.h>
+#include <deal.II/numerics/data_out.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace Supple
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    std::vector<CellData<dim>>
+    cell_data(const SerialMesh &mesh)
+    {
+      std::vector<CellData<dim>> cells;
+      cells.reserve(mesh.cells.size());
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        {
+          const auto vertices = mesh.cell_vertices(c);
+          cells.emplace_back(vertices.size());
+          std::copy(vertices.begin(), vertices.end(), cells.back().vertices.begin());
+          cells.back().material_id = mesh.materials[c];
+        }
+      return cells;
+    }
+
+
+    template <int face_dim>
+    void
+    add_boundary(const SerialMesh &mesh, std::vector<CellData<face_dim>> &faces)
+    {
+      faces.reserve(mesh.boundary.size());
+      for (const auto &face : mesh.boundary)
+        {
+          const auto vertices = mesh.face_vertices(face);
+          faces.emplace_back(vertices.size());
+          std::copy(vertices.begin(), vertices.end(), faces.back().vertices.begin());
+          faces.back().boundary_id = face.boundary_id;
+        }
+    }
+
+
+    /** deal.II's mesh on one process, each cell with the number of the process that shall own it.
+     */
+    template <int dim>
+    void
+    create_serial(const SerialMesh &mesh,
+                  const unsigned int n_processes,
+                  Triangulation<dim, 3> &serial)
+    {
+      SubCellData boundary;
+      if constexpr (dim == 3)
+        add_boundary(mesh, boundary.boundary_quads);
+      else
+        add_boundary(mesh, boundary.boundary_lines);
+      serial.create_triangulation(mesh.vertices, cell_data<dim>(mesh), boundary);
+
+      GridTools::partition_triangulation(n_processes, serial, SparsityTools::Partitioner::metis);
+      std::vector<unsigned int> cells_of(n_processes);
+      for (const auto &cell : serial.active_cell_iterators())
+        ++cells_of[cell->subdomain_id()];
+      if (*std::min_element(cells_of.begin(), cells_of.end()) == 0)
+        throw InputError(std::to_string(n_processes) + " processes are too many for " +
+                         std::to_string(mesh.cells.size()) +
+                         " cells: one of them would have none.");
+    }
+
+
+    /** What points along the normal of a face, out of the body if the nodes are in that order. */
+    Tensor<1, 3>
+    normal_direction(const std::vector<Point<3>> &x)
+    {
+      if (x.size() == 3)
+        return cross_product_3d(x[1] - x[0], x[2] - x[0]);
+      return cross_product_3d(x[1] - x[0], Point<3>(0., 0., 1.));
+    }
+
+
+    template <int dim>
+    class SimplexMesh : public DistributedMesh
+    {
+    public:
+      SimplexMesh(const SerialMesh &mesh, const MPI_Comm communicator)
+        : triangulation(communicator)
+        , fe(FE_SimplexP<dim, 3>(1), 3)
+        , dof_handler(triangulation)
+      {
+        Triangulation<dim, 3> serial;
+        create_serial(mesh, Utilities::MPI::n_mpi_processes(communicator), serial);
+        triangulation.create_triangulation(
+          TriangulationDescription::Utilities::create_description_from_triangulation(serial,
+                                                                                     communicator));
+        dof_handler.distribute_dofs(fe);
+
+        partitioner =
+          std::make_shared<Utilities::MPI::Partitioner>(dof_handler.locally_owned_dofs(),
+                                                        Compatibility::locally_relevant_dofs(
+                                                          dof_handler),
+                                                        communicator);
+        n_owned = partitioner->locally_owned_size() / 3;
+        n_local = n_owned + partitioner->n_ghost_indices() / 3;
+        n_cells = triangulation.n_active_cells();
+        collect(mesh);
+      }
+
+      std::pair<std::string, std::string>
+      draw(const Drawing &drawing, const std::vector<std::string> &names) const override;
+
+    private:
+      using CellIterator = typename DoFHandler<dim, 3>::active_cell_iterator;
+
+      void
+      collect(const SerialMesh &mesh)
+      {
+        positions.resize(n_local);
+        serial_vertex.resize(n_local);
+        std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+        for (const auto &cell : dof_handler.active_cell_iterators())
+          {
+            if (cell->is_artificial())
+              continue;
+            cell->get_dof_indices(dofs);
+            const auto &serial_vertices = mesh.cells[cell->id().get_coarse_cell_id()];
+
+            LocalCell local;
+            for (const unsigned int a : cell->vertex_indices())
+              {
+                const unsigned int node = node_of(dofs, a);
+                local.nodes[a]          = node;
+                serial_vertex[node]     = serial_vertices[a];
+                for (unsigned int d = 0; d < 3; ++d)
+                  positions[node][d] = cell->vertex(a)[d];
+              }
+            if (dim == 2)
+              local.nodes[3] = local.nodes[2];
+            local.material_id = cell->material_id();
+            local.index       = cell->active_cell_index();
+            local.owned       = cell->is_locally_owned();
+            cells.push_back(local);
+            collect_faces(cell);
+          }
+      }
+
+      /** The rest of the program counts on three numbers in a row for each vertex. */
+      unsigned int
+      node_of(const std::vector<types::global_dof_index> &dofs, const unsigned int vertex) const
+      {
+        const unsigned int first = partitioner->global_to_local(dofs[3 * vertex]);
+        AssertThrow(first % 3 == 0 &&
+                      partitioner->global_to_local(dofs[3 * vertex + 1]) == first + 1 &&
+                      partitioner->global_to_local(dofs[3 * vertex + 2]) == first + 2,
+                    ExcInternalError());
+        return first / 3;
+      }
+
+      void
+      collect_faces(const CellIterator &cell)
+      {
+        std::vector<types::global_dof_index> dofs(fe.n_dofs_per_face());
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary())
+            {
+              cell->face(f)->get_dof_indices(dofs);
+              LocalFace face;
+              std::vector<Point<3>> x;
+              for (const unsigned int v : cell->face(f)->vertex_indices())
+                {
+                  face.nodes[v] = node_of(dofs, v);
+                  x.push_back(cell->face(f)->vertex(v));
+                }
+              if (normal_direction(x) * (cell->center() - x[0]) > 0.)
+                std::swap(face.nodes[dim - 2], face.nodes[dim - 1]);
+              if (dim == 2)
+                face.nodes[2] = face.nodes[1];
+              face.boundary_id = cell->face(f)->boundary_id();
+              face.owned       = cell->is_locally_owned();
+              faces.push_back(face);
+            }
+      }
+
+      parallel::fullydistributed::Triangulation<dim, 3> triangulation;
+      const FESystem<dim, 3> fe;
+      DoFHandler<dim, 3> dof_handler;
+    };
+
+
+    template <int dim>
+    std::pair<std::string, std::string>
+    SimplexMesh<dim>::draw(const Drawing &drawing, const std::vector<std::string> &names) const
+    {
+      const std::vector<DataComponentInterpretation::DataComponentInterpretation> vector_valued(
+        3, DataComponentInterpretation::component_is_part_of_vector);
+      DataOut<dim, 3> data;
+      data.attach_dof_handler(dof_handler);
+      for (const auto &[name, values] : drawing.of_nodes)
+        data.add_data_vector(*values,
+                             std::vector<std::string>(3, name),
+                             DataOut<dim, 3>::type_dof_data,
+                             vector_valued);
+      for (const auto &[name, values] : drawing.of_cells)
+        data.add_data_vector(values, name, DataOut<dim, 3>::type_cell_data);
+
+      DataOutBase::VtkFlags flags(drawing.time, drawing.step);
+      flags.compression_level = DataOutBase::VtkFlags::best_speed;
+      data.set_flags(flags);
+      data.build_patches(MappingFEField<dim, 3, Vector>(dof_handler, drawing.positions));
+
+      std::ostringstream part, record;
+      data.write_vtu(part);
+      data.write_pvtu_record(record, names);
+      return {part.str(), record.str()};
+    }
+  } // namespace
+
+
+  std::unique_ptr<DistributedMesh>
+  DistributedMesh::create(const SerialMesh &mesh, const MPI_Comm communicator)
+  {
+    if (mesh.dimension == 2)
+      return std::make_unique<SimplexMesh<2>>(mesh, communicator);
+    return std::make_unique<SimplexMesh<3>>(mesh, communicator);
+  }
+} // namespace Supple

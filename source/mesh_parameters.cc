@@ -1,0 +1,287 @@
+#include <supple/entries.h>
+#include <supple/error.h>
+#include <supple/parameters.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace Supple
+{
+  using dealii::ParameterHandler;
+  using namespace Entries;
+
+  void
+  MeshParameters::declare_cylinder(ParameterHandler &prm)
+  {
+    const Range positive = Range::between(0, infinity);
+    add(prm, "Cylinder inner radius", inner_radius, "m", positive, "Radius of the cavity.");
+    add(prm, "Cylinder outer radius", outer_radius, "m", positive, "Radius of the outer wall.");
+    add(prm, "Cylinder height", height, "m", positive, "Length along z; the middle is at z = 0.");
+    add(prm,
+        "Cylinder sectors",
+        sectors,
+        "none",
+        Range::whole_number(3),
+        "Number of vertices on each circle.");
+    add(
+      prm,
+      "Cylinder rings",
+      rings,
+      "none",
+      Range::whole_number(2),
+      "Number of cross sections with vertices, both ends included. Boundary ids: 0 (inner wall), 1 "
+      "(outer wall), 2 (bottom), 3 (top).");
+    add(prm,
+        "Cylinder layers",
+        layers,
+        "none",
+        Range::whole_number(1),
+        "Number of layers of cells through the wall.");
+  }
+
+
+  void
+  MeshParameters::declare_rectangle(ParameterHandler &prm)
+  {
+    add(prm,
+        "Rectangle origin",
+        rectangle_origin,
+        "m",
+        RangeList::two(Range::finite()),
+        "Corner of the rectangle with the smallest x and y.");
+    add(prm,
+        "Rectangle size",
+        rectangle_size,
+        "m",
+        RangeList::two(Range::between(0, infinity)),
+        "Lengths of the rectangle along x and y.");
+    add(prm,
+        "Rectangle squares",
+        squares,
+        "none",
+        RangeList::two(Range::whole_number(1)),
+        "Number of squares along x and y; each is cut into two triangles. The edges of the "
+        "rectangle have the boundary ids 0 (left), 1 (right), 2 (bottom), 3 (top).");
+    add_choice(prm,
+               "Rectangle split",
+               split,
+               {{"falling", Split::falling},
+                {"rising", Split::rising},
+                {"alternating", Split::alternating}},
+               "How squares are cut: from the upper left to the lower right, from the lower left "
+               "to the upper right, or as on a chessboard, beginning with falling in the lower "
+               "left corner. With an even number of squares along x the last one is a mirror "
+               "image of itself.");
+  }
+
+
+  void
+  MeshParameters::declare_file(ParameterHandler &prm)
+  {
+    const Range positive = Range::between(0, infinity);
+    add(prm,
+        "File",
+        file,
+        "none",
+        dealii::Patterns::Anything(),
+        "Mesh file (.msh, .vtk, .unv, .mesh, .bdf), relative to the folder of the scene. Physical "
+        "volumes become material ids and physical surfaces boundary ids. A file without "
+        "tetrahedra, but with triangles in the plane z = 0, is a plane body: physical surfaces "
+        "become material ids and physical curves boundary ids.");
+    add(prm,
+        "Scale",
+        scale,
+        "m per unit of the file",
+        positive,
+        "All coordinates of a file times this.");
+    prm.add_parameter(
+      "Boundary regions",
+      boundary_regions,
+      "Boundary ids by place, such as 7: z < 0.1; 8: z > 2. A face of the surface whose vertices "
+      "all satisfy the expression gets the id, whatever it had before. Unit: m. Range: id: "
+      "expression of x, y, z, set apart by semicolons.",
+      dealii::Patterns::Anything());
+  }
+
+
+  void
+  MeshParameters::declare(ParameterHandler &prm)
+  {
+    const Range positive = Range::between(0, infinity);
+    prm.enter_subsection("Mesh");
+    add_choice(prm,
+               "Shape",
+               shape,
+               {{"box", Shape::box},
+                {"hollow cylinder", Shape::hollow_cylinder},
+                {"rectangle", Shape::rectangle},
+                {"file", Shape::file}},
+               "The body: a box, a hollow cylinder about the z axis, a rectangle of triangles in "
+               "the plane z = 0 (subsection Plane), or what a mesh file holds.");
+    add(prm,
+        "Box origin",
+        origin,
+        "m",
+        RangeList::three(Range::finite()),
+        "Corner of the box with the smallest coordinates.");
+    add(prm,
+        "Box size",
+        size,
+        "m",
+        RangeList::three(positive),
+        "Lengths of the box along x, y and z.");
+    add(
+      prm,
+      "Box cubes",
+      cubes,
+      "none",
+      RangeList::three(Range::whole_number(1)),
+      "Number of cubes along x, y and z; each is cut into six tetrahedra along its diagonal from "
+      "the "
+      "smallest to the largest coordinates. The faces of the box have the boundary ids 0 (smallest "
+      "x), 1 (largest x), 2, 3 (y), 4, 5 (z).");
+    declare_cylinder(prm);
+    declare_rectangle(prm);
+    add(
+      prm,
+      "Layers",
+      material_layers,
+      "m",
+      RangeList("thicknesses set apart by commas, each " + positive.description() + ", or nothing",
+                positive,
+                0,
+                dealii::Patterns::List::max_int_value),
+      "Layers of a box or a rectangle from the top, the largest y, downward: their cells have the "
+      "material ids 0, 1, ... Together they are as thick as the body, and each ends where a row "
+      "of cubes or squares does. Empty: all cells have the material id 0.");
+    declare_file(prm);
+    prm.leave_subsection();
+  }
+
+
+  std::pair<double, unsigned int>
+  MeshParameters::height_and_rows() const
+  {
+    return shape == Shape::box ? std::make_pair(size[1], cubes[1])
+                               : std::make_pair(rectangle_size[1], squares[1]);
+  }
+
+
+  std::vector<unsigned int>
+  MeshParameters::material_of_rows() const
+  {
+    const auto [height, n_rows] = height_and_rows();
+    std::vector<unsigned int> material(n_rows);
+    double bottom = height;
+    for (unsigned int layer = 0; layer < material_layers.size(); ++layer)
+      {
+        bottom -= material_layers[layer];
+        for (unsigned int row = 0; row < n_rows; ++row)
+          if ((row + 0.5) * height / n_rows < bottom)
+            material[row] = layer + 1;
+      }
+    return material;
+  }
+
+
+  void
+  MeshParameters::check_layers(const Parameters &parameters) const
+  {
+    if (material_layers.empty())
+      return;
+    const std::string origin = parameters.origin("Mesh/Layers");
+    if (shape != Shape::box && shape != Shape::rectangle)
+      throw InputError(origin + ": only a box and a rectangle have layers; with other shapes " +
+                       "leave it empty.");
+
+    const auto [height, n_rows] = height_and_rows();
+    std::ostringstream text;
+    double depth = 0.;
+    for (const double thickness : material_layers)
+      {
+        depth += thickness;
+        const double rows = depth / height * n_rows;
+        if (std::abs(rows - std::round(rows)) > 1e-6 && text.str().empty())
+          text << ": a layer ends " << depth << " m below the top, which is not where a row ends; "
+               << "the rows are " << height / n_rows << " m high.";
+      }
+    if (std::abs(depth / height - 1.) > 1e-6)
+      {
+        text.str("");
+        text << ": the layers are " << depth << " m thick together, but the body is " << height
+             << " m high (along y).";
+      }
+    if (!text.str().empty())
+      throw InputError(origin + text.str());
+  }
+
+
+  void
+  MeshParameters::check_cylinder(const Parameters &parameters) const
+  {
+    const double n_wedges = double(sectors) * rings * layers;
+    if (n_wedges > 2e7)
+      throw InputError(parameters.origin("Mesh/Cylinder rings") +
+                       ": there can be 2e7 vertices at most.");
+    if (inner_radius >= outer_radius)
+      throw InputError(parameters.origin("Mesh/Cylinder inner radius") +
+                       ": it must be smaller than the outer radius.");
+    if (inner_radius > outer_radius * std::cos(dealii::numbers::PI / sectors))
+      throw InputError(
+        parameters.origin("Mesh/Cylinder sectors") +
+        ": so few that the straight edges of the outer wall would cut through the inner one. "
+        "Take more sectors or a thicker wall.");
+  }
+
+
+  void
+  MeshParameters::check(const Parameters &parameters) const
+  {
+    const double n_cubes = double(cubes[0]) * cubes[1] * cubes[2];
+    if (shape == Shape::box && n_cubes > 2e7)
+      throw InputError(parameters.origin("Mesh/Box cubes") + ": there can be 2e7 cubes at most.");
+    if (shape == Shape::rectangle && double(squares[0]) * squares[1] > 2e7)
+      throw InputError(parameters.origin("Mesh/Rectangle squares") +
+                       ": there can be 2e7 squares at most.");
+    if (shape == Shape::hollow_cylinder)
+      check_cylinder(parameters);
+    if (shape == Shape::file && file.empty())
+      throw InputError(parameters.origin("Mesh/File") + ": Shape = file needs a mesh file.");
+    check_layers(parameters);
+  }
+
+
+  void
+  PlaneParameters::declare(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Plane");
+    add_choice(prm,
+               "Model",
+               section.geometry,
+               {{"plane strain", Geometry::plane_strain},
+                {"plane stress", Geometry::plane_stress},
+                {"axisymmetric", Geometry::axisymmetric}},
+               "Of a body of triangles in the plane z = 0. plane strain: it goes on along z and "
+               "does not strain there. plane stress: a plate, on whose faces nothing presses. "
+               "axisymmetric: the triangles go around the y axis, and x is the distance from it; "
+               "forces and masses are those of the whole circumference, and vertices on the axis "
+               "stay on it.");
+    add(prm,
+        "Thickness",
+        section.thickness,
+        "m",
+        Range::between(0, infinity),
+        "Of the plate, or of the piece that is looked at in plane strain: forces and masses are "
+        "those of this thickness.");
+    prm.leave_subsection();
+  }
+
+
+  void
+  PlaneParameters::check(const Parameters &parameters) const
+  {
+    if (section.axisymmetric() && section.thickness != 1.)
+      throw InputError(parameters.origin("Plane/Thickness") +
+                       ": an axisymmetric body goes all the way round; leave the thickness at 1.");
+  }
+} // namespace Supple

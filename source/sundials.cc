@@ -1,0 +1,147 @@
+#include <supple/error.h>
+#include <supple/sundials.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <nvector/nvector_parallel.h>
+
+namespace Supple
+{
+  namespace Sundials
+  {
+    Context::Context(const MPI_Comm communicator)
+      : communicator(communicator)
+    {
+      context = Compatibility::create_sundials_context(this->communicator);
+      Compatibility::collect_errors(context, message);
+    }
+
+
+    Context::~Context()
+    {
+      SUNContext_Free(&context);
+    }
+
+
+    StateVector::StateVector(const unsigned int n_local,
+                             const MPI_Comm communicator,
+                             const Context &context)
+      : vector(N_VNew_Parallel(communicator,
+                               n_local,
+                               dealii::Utilities::MPI::sum(n_local, communicator),
+                               context))
+    {
+      N_VConst(0., vector);
+    }
+
+
+    StateVector::~StateVector()
+    {
+      N_VDestroy(vector);
+    }
+
+
+    double *
+    StateVector::data() const
+    {
+      return Sundials::data(vector);
+    }
+
+
+    double *
+    data(const N_Vector vector)
+    {
+      return N_VGetArrayPointer(vector);
+    }
+
+
+    namespace
+    {
+      LinearSystem &
+      system_of(const SUNMatrix matrix)
+      {
+        return *static_cast<LinearSystem *>(matrix->content);
+      }
+
+
+      SUNMatrix
+      make_matrix(LinearSystem *system, const SUNContext context)
+      {
+        const SUNMatrix matrix = SUNMatNewEmpty(context);
+        matrix->content        = system;
+        matrix->ops->getid     = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
+        matrix->ops->clone     = [](SUNMatrix other) {
+          return make_matrix(&system_of(other), other->sunctx);
+        };
+        matrix->ops->destroy = [](SUNMatrix other) { SUNMatFreeEmpty(other); };
+        matrix->ops->zero    = [](SUNMatrix) { return 0; };
+        matrix->ops->copy    = [](SUNMatrix, SUNMatrix) { return 0; };
+        matrix->ops->matvec  = [](SUNMatrix other, N_Vector x, N_Vector y) {
+          return system_of(other).product(data(y), data(x));
+        };
+        return matrix;
+      }
+    } // namespace
+
+
+    LinearSystem::LinearSystem(const Context &context)
+      : matrix(make_matrix(this, context))
+      , solver(SUNLinSolNewEmpty(context))
+    {
+      solver->content         = this;
+      solver->ops->gettype    = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
+      solver->ops->getid      = [](SUNLinearSolver) { return SUNLINEARSOLVER_CUSTOM; };
+      solver->ops->initialize = [](SUNLinearSolver) { return 0; };
+      solver->ops->setup      = [](SUNLinearSolver, SUNMatrix) { return 0; };
+      solver->ops->solve =
+        [](SUNLinearSolver self, SUNMatrix, N_Vector x, N_Vector b, sunrealtype) {
+          // ARKode takes a code it doesn't know for success.
+          const int status = static_cast<LinearSystem *>(self->content)->solve(data(x), data(b));
+          return status == 0  ? 0
+                 : status > 0 ? SUNLS_PACKAGE_FAIL_REC
+                              : Compatibility::linear_solver_failed;
+        };
+    }
+
+
+    LinearSystem::~LinearSystem()
+    {
+      SUNLinSolFreeEmpty(solver);
+      SUNMatDestroy(matrix);
+    }
+
+
+    int
+    Failure::guard(const std::function<void()> &action)
+    {
+      try
+        {
+          action();
+          return 0;
+        }
+      catch (const ComputationError &)
+        {
+          if (!kept) // what failed first is the reason for the rest
+            kept = std::current_exception();
+          return 1;
+        }
+      catch (...)
+        {
+          kept = std::current_exception();
+          return -1;
+        }
+    }
+
+
+    void
+    Failure::rethrow()
+    {
+      if (kept)
+        {
+          const std::exception_ptr exception = kept;
+          kept                               = nullptr;
+          std::rethrow_exception(exception);
+        }
+    }
+  } // namespace Sundials
+} // namespace Supple

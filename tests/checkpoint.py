@@ -1,0 +1,90 @@
+"""A run that was stopped, or killed at any moment, goes on as if nothing had happened."""
+
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import tempfile
+import time
+
+import runner
+
+folder = pathlib.Path(tempfile.mkdtemp(prefix="supple-"))
+ALWAYS = {"Solver/Tolerance": 1e-12, "Output/Motion": 0.05, "Checkpoint/Every": 7, "Checkpoint/Resume": "auto"}
+
+
+def compare(whole, parts, what, tolerance=1e-12):
+    """Every row of the tables, the times of the frames."""
+    for table in ("history.csv", "probes.csv"):
+        columns = [name for name in whole.table(table)[0] if not name.endswith(("seconds", "iterations"))]
+        difference = runner.largest_difference(whole.table(table), parts.table(table), columns)
+        runner.check(difference < tolerance, f"{what}: {table} differs by {difference}")
+    runner.check(whole.frame_times() == parts.frame_times(), f"{what}: frames")
+    for frame in range(len(whole.frame_times())):
+        runner.check(any((parts.folder / "solution").glob(f"frame_{frame:04}.*vtu")), f"{what}: a frame is missing")
+
+
+def run(name, settings, ranks=1):
+    status, _, error = runner.run(runner.BAR, "--quiet", "--output", folder / name, *runner.overrides(settings), ranks=ranks)
+    return status, error
+
+
+# Stopped by its own end, then made longer: with all that is kept over steps.
+cases = {"polar": {}, "linear": {"Corotation/Rotation": "none"},
+         "moved": {"Motion/Of": "region y == 0", "Motion/Displacement": "free; free; 2*sin(3*t)", "Start/Velocity": "0; 0; 0",
+                   "Damping/Stiffness factor": 0.002, "Damping/Mass factor": 0.1},
+         "trbdf2": {"Time/Method": "trbdf2", "Time/Step": 0.01, "Time/Newton tolerance": 1e-13},
+         "static": {"Time/Problem": "static", "Start/Velocity": "0; 0; 0"}}
+for name, case in cases.items():
+    settings = {**ALWAYS, **case, "Time/Steps": 40}
+    whole = runner.simulate(runner.BAR, {**settings, "Checkpoint/Resume": "never"})
+    parts = {**settings, "Output/Folder": "elsewhere"}
+    process = subprocess.Popen([runner.SUPPLE, str(runner.BAR), "--quiet", "--output", str(folder / name),
+                                *runner.overrides({**settings, "Output/Frames": "adaptive"})],
+                               env=runner.ENVIRONMENT, stderr=subprocess.DEVNULL)
+    history = folder / name / "history.csv"
+    while process.poll() is None and not (history.exists() and history.read_text().count("\n") > 12):
+        pass
+    process.send_signal(random.choice([signal.SIGTERM, signal.SIGKILL]))
+    process.wait()
+    for ranks in [2 if name == "polar" else 1, 1]:
+        status, error = run(name, parts, ranks)
+        runner.check(status == 0, error)
+    compare(whole, runner.Results(folder / name), name, 1e-8 if name == "polar" else 1e-12)
+
+# kill -9 at random instants, several times in one run.
+settings = {**ALWAYS, "Time/Steps": 4000, "Output/Frames": "interval", "Output/Interval": 7}
+whole = runner.simulate(runner.BAR, {**settings, "Checkpoint/Resume": "never"})
+kills = 0
+while kills < 20:
+    process = subprocess.Popen([runner.SUPPLE, str(runner.BAR), "--quiet", "--output", str(folder / "killed"),
+                                *runner.overrides(settings)], env=runner.ENVIRONMENT, start_new_session=True)
+    try:
+        status = process.wait(timeout=random.uniform(0.1, 0.6))
+        runner.check(status == 0, f"status {status} after {kills} kills")
+        break
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+        kills += 1
+status, error = run("killed", settings)
+runner.check(status == 0, error)
+compare(whole, runner.Results(folder / "killed"), f"killed {kills} times", 1e-10)
+print(f"killed {kills} times")
+
+# What does not fit is refused and left as it is.
+file = folder / "polar" / "checkpoint.cbor"
+good = file.read_bytes()
+status, error = run("polar", {**ALWAYS, "Time/Steps": 60, "Material/Young modulus": 2e8})
+runner.check(status == 1 and "another scene" in error and "Young modulus" in error, error)
+runner.check(file.read_bytes() == good, "the checkpoint was touched")
+file.write_bytes(good[:1000] + b"x" + good[1001:])
+status, error = run("polar", {**ALWAYS, "Time/Steps": 60})
+runner.check(status == 0, f"the one before is whole: {error}")
+for name in ("checkpoint.cbor", "checkpoint.previous.cbor"):
+    (folder / "polar" / name).write_bytes(b"supple checkpoint 1\n")
+status, error = run("polar", {**ALWAYS, "Time/Steps": 60})
+runner.check(status == 1 and "damaged" in error, error)
+status, error = run("polar", {**ALWAYS, "Time/Steps": 60, "Checkpoint/Resume": "never"})
+runner.check(status == 0, error)
