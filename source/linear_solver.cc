@@ -80,6 +80,7 @@ namespace Supple
     , effort(effort)
   {
     A.body.initialize(residual);
+    A.body.initialize(remainder);
     A.body.initialize(correction);
   }
 
@@ -107,6 +108,9 @@ namespace Supple
           break;
         case Method::cholmod:
           solver = make_cholmod_solver(A, parameters, effort);
+          break;
+        case Method::cg_amg:
+          solver = make_cg_amg_solver(A, parameters, effort);
           break;
         case Method::cg_jacobi:
           solver = make_cg_jacobi_solver(A, parameters, effort);
@@ -140,15 +144,16 @@ namespace Supple
         x = 0.;
         return 0;
       }
-    unsigned int n_iterations = do_solve(x, b);
-    double relative           = residual_norm(x, b) / size;
+    unsigned int n_iterations = do_solve(x, b, residual);
+    double relative           = residual.l2_norm() / size;
 
     // Round-off in large or badly conditioned systems: solve for what is left over.
     for (unsigned int n = 0; n < 3 && relative > 2. * parameters.tolerance; ++n)
       {
-        n_iterations += do_solve(correction, residual);
+        remainder = residual;
+        n_iterations += do_solve(correction, remainder, residual);
         x += correction;
-        relative = residual_norm(x, b) / size;
+        relative = set_residual(residual, x, b) / size;
       }
     if (relative > std::max(1e-6, 10. * parameters.tolerance))
       {
@@ -167,7 +172,7 @@ namespace Supple
 
 
   double
-  LinearSolver::residual_norm(const Vector &x, const Vector &b)
+  LinearSolver::set_residual(Vector &residual, const Vector &x, const Vector &b) const
   {
     if (!all_finite(x))
       throw ComputationError("the linear solver " + name() + " gave no finite numbers");

@@ -35,7 +35,7 @@ namespace Supple
 
     private:
       unsigned int
-      do_solve(Vector &x, const Vector &b) override
+      do_solve(Vector &x, const Vector &b, Vector &residual) override
       {
         SolverControl control(parameters.iteration_limit, parameters.tolerance * b.l2_norm());
         SolverCG<Vector> cg(control, memory);
@@ -52,6 +52,7 @@ namespace Supple
                  << " iterations; they got to " << control.last_value() / b.l2_norm();
             throw ComputationError(text.str());
           }
+        set_residual(residual, x, b);
         return control.last_step();
       }
 

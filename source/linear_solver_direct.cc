@@ -126,10 +126,11 @@ namespace Supple
       }
 
       unsigned int
-      do_solve(Vector &x, const Vector &b) override
+      do_solve(Vector &x, const Vector &b, Vector &residual) override
       {
         Eigen::Map<Eigen::VectorXd>(x.begin(), x.size()) =
           factorization.solve(Eigen::Map<const Eigen::VectorXd>(b.begin(), b.size()));
+        set_residual(residual, x, b);
         return 0;
       }
 

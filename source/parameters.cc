@@ -485,12 +485,13 @@ namespace Supple
       {{"auto", Method::automatic},
        {"ldlt", Method::ldlt},
        {"cholmod", Method::cholmod},
+       {"cg-amg", Method::cg_amg},
        {"cg-ml", Method::cg_ml},
        {"cg-jacobi", Method::cg_jacobi}},
       "Linear solver: Eigen's simplicial LDL^T (small bodies), CHOLMOD's supernodal Cholesky "
       "(middle), "
-      "conjugate gradients with Trilinos ML (large, or several processes) or with the inverted "
-      "diagonal blocks. auto chooses by size.");
+      "conjugate gradients with our own algebraic multigrid (large, or several processes), with "
+      "Trilinos ML or with the inverted diagonal blocks. auto chooses by size.");
     add(
       prm,
       "Tolerance",

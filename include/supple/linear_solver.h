@@ -42,6 +42,10 @@ namespace Supple
   protected:
     LinearSolver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort);
 
+    /** Sets residual = b - A x and gives its norm. @throws ComputationError if x is not finite */
+    double
+    set_residual(Vector &residual, const Vector &x, const Vector &b) const;
+
     const ImplicitOperator &A;
     const SolverParameters &parameters;
     Effort &effort;
@@ -50,14 +54,11 @@ namespace Supple
     virtual void
     do_prepare(const Vector &displacement) = 0;
 
+    /** Sets x = A^-1 b and residual = b - A x; b is not zero. */
     virtual unsigned int
-    do_solve(Vector &x, const Vector &b) = 0;
+    do_solve(Vector &x, const Vector &b, Vector &residual) = 0;
 
-    /** Sets residual = b - A x. */
-    double
-    residual_norm(const Vector &x, const Vector &b);
-
-    Vector residual, correction;
+    Vector residual, remainder, correction;
   };
 
 
@@ -74,6 +75,10 @@ namespace Supple
   /** Conjugate gradients with Trilinos ML and the six rigid motions of the deformed body. */
   std::unique_ptr<LinearSolver>
   make_cg_ml_solver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort);
+
+  /** Conjugate gradients with our own multigrid. */
+  std::unique_ptr<LinearSolver>
+  make_cg_amg_solver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort);
 
   /** Conjugate gradients with the inverted 3x3 diagonal blocks. */
   std::unique_ptr<LinearSolver>

@@ -301,6 +301,7 @@ namespace Supple
       automatic,
       ldlt,
       cholmod,
+      cg_amg,
       cg_ml,
       cg_jacobi
     };

@@ -1,0 +1,113 @@
+#ifndef supple_block_smoother_h
+#define supple_block_smoother_h
+
+#include <supple/block_matrix.h>
+#include <supple/lanes.h>
+
+#include <vector>
+
+namespace Supple
+{
+  /**
+   * The values of a symmetric matrix of BxB blocks in double precision, as they stand in memory:
+   * blocks of 3x3 without gaps, those of 6x6 of coarse levels with rows of eight.
+   */
+  template <unsigned int B>
+  struct MatrixView
+  {
+    static constexpr unsigned int row_size   = B == 3 ? 3 : 8;
+    static constexpr unsigned int block_size = B * row_size;
+
+    const SymmetricPattern &pattern;
+    const double *lower;
+    const double *diagonal;
+  };
+
+
+  /**
+   * A symmetric matrix of BxB blocks in single precision, A = L + D + L^T, of which L and D are
+   * kept: the smoother of a multigrid level. One sweep of block Gauss-Seidel before the coarse
+   * level and one backwards after it make a symmetric, positive definite preconditioner.
+   *
+   * Each block of L is used twice when it is read, as L_ij x_j and as L_ij^T x_i. Sweeps leave out
+   * the couplings to nodes of other processes (ghost rows); half the sums of their absolute values
+   * are added to the diagonal instead, so that the sweeps converge on any number of processes (l1
+   * Gauss-Seidel: Baker, Falgout, Kolev, Yang 2011).
+   *
+   * Arrays have an entry for each of the pattern.n_local nodes.
+   */
+  template <unsigned int B>
+  class BlockSmoother
+  {
+  public:
+    explicit BlockSmoother(const SymmetricPattern &pattern);
+
+    /** Takes the matrix factor * A; false if a block on its diagonal is not positive definite. */
+    bool
+    set(const MatrixView<B> &A, double factor);
+
+    /** y = A x on owned nodes; ghost values of x must be valid. */
+    void
+    vmult(NodeValues<B> *y, const NodeValues<B> *x) const;
+
+    /** x = (D + L)^-1 b and residual = b - A x, but for couplings to other processes. */
+    void
+    forward(NodeValues<B> *x, NodeValues<B> *residual, const NodeValues<B> *b) const;
+
+    /**
+     * What sweeps leave out: takes couplings to other processes from a residual, or from the right
+     * hand side of a backward sweep. Ghost values of x must be valid.
+     */
+    void
+    subtract_remote(NodeValues<B> *residual, const NodeValues<B> *x) const;
+
+    /** x += (D + L^T)^-1 (b - A x), but for couplings to other processes; b is lost. */
+    void
+    backward(NodeValues<B> *x, NodeValues<B> *b) const;
+
+    /** D^-1 b */
+    Lanes<float, B>
+    solve_diagonal(std::size_t node, const Lanes<float, B> &b) const;
+
+    /** D x */
+    Lanes<float, B>
+    diagonal_product(std::size_t node, const Lanes<float, B> &x) const;
+
+    /** Frobenius' norm of the block D of a node. */
+    float
+    diagonal_norm(std::size_t node) const;
+
+    const SymmetricPattern &pattern;
+    std::vector<float> lower;            ///< blocks by rows, in the order of the pattern
+    std::vector<NodeValues<B>> diagonal; ///< D of owned nodes, B columns each
+    std::vector<NodeValues<B>> inverse;  ///< D^-1 with what is added to D
+
+  private:
+    /** The sum of L_ij x_j over a row. */
+    Lanes<float, B>
+    row_product(std::size_t row, const NodeValues<B> *x) const;
+
+    /** y_j += L_ij^T x_i over a row. */
+    void
+    add_transposed(std::size_t row, const Lanes<float, B> &x, NodeValues<B> *y) const;
+
+    bool
+    set_diagonal(const MatrixView<B> &A, double factor);
+
+    void
+    sum_remote_couplings();
+
+    /** Of an owned node next to ghosts: half the sums of absolute values in its couplings to them.
+     */
+    struct RemoteSum
+    {
+      std::uint32_t node;
+      NodeValues<B> sum;
+    };
+
+    std::vector<RemoteSum> remote;           ///< by ascending node
+    std::vector<std::uint32_t> remote_index; ///< for each entry of the ghost rows
+  };
+} // namespace Supple
+
+#endif

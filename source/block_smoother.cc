@@ -1,0 +1,267 @@
+#include <supple/block_smoother.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Supple
+{
+  template <unsigned int B>
+  BlockSmoother<B>::BlockSmoother(const SymmetricPattern &pattern)
+    : pattern(pattern)
+    , lower(B * B * pattern.n_entries() + 8) // the load of a row takes in what follows it
+    , diagonal(B * static_cast<std::size_t>(pattern.n_owned))
+    , inverse(B * static_cast<std::size_t>(pattern.n_owned))
+  {
+    const auto ghost_columns = pattern.column.begin() + pattern.row_start[pattern.n_owned];
+    std::vector<std::uint32_t> nodes(ghost_columns, pattern.column.end());
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    for (const std::uint32_t node : nodes)
+      remote.push_back({node, NodeValues<B>()});
+    for (auto column = ghost_columns; column != pattern.column.end(); ++column)
+      remote_index.push_back(std::lower_bound(nodes.begin(), nodes.end(), *column) - nodes.begin());
+  }
+
+
+  template <unsigned int B>
+  bool
+  BlockSmoother<B>::set(const MatrixView<B> &A, const double factor)
+  {
+    constexpr unsigned int row_size = MatrixView<B>::row_size;
+    const std::size_t n_rows        = B * pattern.n_entries();
+    for (std::size_t row = 0; row < n_rows; ++row)
+      for (unsigned int j = 0; j < B; ++j)
+        lower[B * row + j] = static_cast<float>(factor * A.lower[row_size * row + j]);
+    sum_remote_couplings();
+    return set_diagonal(A, factor);
+  }
+
+
+  template <unsigned int B>
+  void
+  BlockSmoother<B>::sum_remote_couplings()
+  {
+    for (RemoteSum &entry : remote)
+      entry.sum.lanes = Lanes<float, B>{};
+    const float *block = lower.data() + B * B * pattern.row_start[pattern.n_owned];
+    for (const std::uint32_t index : remote_index)
+      {
+        for (unsigned int i = 0; i < B; ++i)
+          for (unsigned int j = 0; j < B; ++j)
+            remote[index].sum.lanes[j] += 0.5f * std::abs(block[B * i + j]);
+        block += B * B;
+      }
+  }
+
+
+  namespace
+  {
+    template <unsigned int B>
+    using Block = Eigen::Matrix<double, B, B>;
+
+
+    /** Inverts a symmetric matrix; false if it is not positive definite. */
+    bool
+    invert(const Block<3> &D, Block<3> &inverse)
+    {
+      inverse = D.inverse();
+      return D(0, 0) > 0. && D(0, 0) * D(1, 1) > D(0, 1) * D(1, 0) && D.determinant() > 0.;
+    }
+
+
+    bool
+    invert(const Block<6> &D, Block<6> &inverse)
+    {
+      const Eigen::LLT<Block<6>> factor(D);
+      inverse = factor.solve(Block<6>::Identity());
+      return factor.info() == Eigen::Success;
+    }
+
+
+    template <unsigned int B>
+    void
+    write(const Block<B> &block, NodeValues<B> *columns)
+    {
+      for (unsigned int j = 0; j < B; ++j)
+        for (unsigned int i = 0; i < B; ++i)
+          columns[j].lanes[i] = static_cast<float>(block(i, j));
+    }
+  } // namespace
+
+
+  template <unsigned int B>
+  bool
+  BlockSmoother<B>::set_diagonal(const MatrixView<B> &A, const double factor)
+  {
+    bool positive    = true;
+    auto next_remote = remote.begin();
+    for (std::size_t node = 0; node < pattern.n_owned; ++node)
+      {
+        const double *values = A.diagonal + MatrixView<B>::block_size * node;
+        Block<B> D, inverted;
+        for (unsigned int i = 0; i < B; ++i)
+          for (unsigned int j = 0; j < B; ++j)
+            D(i, j) = factor * values[MatrixView<B>::row_size * i + j];
+        write<B>(D, &diagonal[B * node]);
+        if (next_remote != remote.end() && next_remote->node == node)
+          {
+            for (unsigned int i = 0; i < B; ++i)
+              D(i, i) += next_remote->sum.lanes[i];
+            ++next_remote;
+          }
+        positive = invert(D, inverted) && positive;
+        write<B>(inverted, &inverse[B * node]);
+      }
+    return positive;
+  }
+
+
+  template <unsigned int B>
+  inline Lanes<float, B>
+  BlockSmoother<B>::row_product(const std::size_t row, const NodeValues<B> *x) const
+  {
+    Lanes<float, B> sums[B]{};
+    for (std::size_t k = pattern.row_start[row]; k < pattern.row_start[row + 1]; ++k)
+      {
+        const Lanes<float, B> x_j = x[pattern.column[k]].lanes;
+        for (unsigned int i = 0; i < B; ++i)
+          sums[i] += load<Lanes<float, B>>(&lower[B * (B * k + i)]) * x_j;
+      }
+    return sums_of_lanes(sums);
+  }
+
+
+  template <unsigned int B>
+  inline void
+  BlockSmoother<B>::add_transposed(const std::size_t row,
+                                   const Lanes<float, B> &x,
+                                   NodeValues<B> *y) const
+  {
+    Lanes<float, B> factor[B];
+    for (unsigned int i = 0; i < B; ++i)
+      factor[i] = broadcast<B>(x[i]);
+    for (std::size_t k = pattern.row_start[row]; k < pattern.row_start[row + 1]; ++k)
+      {
+        Lanes<float, B> sum = load<Lanes<float, B>>(&lower[B * B * k]) * factor[0];
+        for (unsigned int i = 1; i < B; ++i)
+          sum += load<Lanes<float, B>>(&lower[B * (B * k + i)]) * factor[i];
+        y[pattern.column[k]].lanes += sum;
+      }
+  }
+
+
+  namespace
+  {
+    template <unsigned int B>
+    inline Lanes<float, B>
+    combination(const NodeValues<B> *columns, const Lanes<float, B> &x)
+    {
+      Lanes<float, B> sum = columns[0].lanes * x[0];
+      for (unsigned int j = 1; j < B; ++j)
+        sum += columns[j].lanes * x[j];
+      return sum;
+    }
+  } // namespace
+
+
+  template <unsigned int B>
+  Lanes<float, B>
+  BlockSmoother<B>::solve_diagonal(const std::size_t node, const Lanes<float, B> &b) const
+  {
+    return combination<B>(&inverse[B * node], b);
+  }
+
+
+  template <unsigned int B>
+  Lanes<float, B>
+  BlockSmoother<B>::diagonal_product(const std::size_t node, const Lanes<float, B> &x) const
+  {
+    return combination<B>(&diagonal[B * node], x);
+  }
+
+
+  template <unsigned int B>
+  float
+  BlockSmoother<B>::diagonal_norm(const std::size_t node) const
+  {
+    float square = 0.f;
+    for (unsigned int j = 0; j < B; ++j)
+      for (unsigned int i = 0; i < B; ++i)
+        square += diagonal[B * node + j].lanes[i] * diagonal[B * node + j].lanes[i];
+    return std::sqrt(square);
+  }
+
+
+  template <unsigned int B>
+  void
+  BlockSmoother<B>::vmult(NodeValues<B> *y, const NodeValues<B> *x) const
+  {
+    // Row i comes after all rows it adds to, so that y[i] can be set and added to in one sweep.
+    for (std::size_t i = 0; i < pattern.n_owned; ++i)
+      {
+        Lanes<float, B> sums[B]{}, x_i[B];
+        for (unsigned int a = 0; a < B; ++a)
+          x_i[a] = broadcast<B>(x[i].lanes[a]);
+        for (std::size_t k = pattern.row_start[i]; k < pattern.row_start[i + 1]; ++k)
+          {
+            const std::uint32_t j     = pattern.column[k];
+            const Lanes<float, B> x_j = x[j].lanes;
+            Lanes<float, B> y_j       = y[j].lanes;
+            for (unsigned int a = 0; a < B; ++a)
+              {
+                const auto row = load<Lanes<float, B>>(&lower[B * (B * k + a)]);
+                sums[a] += row * x_j;
+                y_j += row * x_i[a];
+              }
+            y[j].lanes = y_j;
+          }
+        y[i].lanes = diagonal_product(i, x[i].lanes) + sums_of_lanes(sums);
+      }
+    for (std::size_t i = pattern.n_owned; i < pattern.n_local; ++i)
+      add_transposed(i, x[i].lanes, y);
+  }
+
+
+  template <unsigned int B>
+  void
+  BlockSmoother<B>::forward(NodeValues<B> *x, NodeValues<B> *residual, const NodeValues<B> *b) const
+  {
+    for (std::size_t i = 0; i < pattern.n_owned; ++i)
+      {
+        const Lanes<float, B> x_i = solve_diagonal(i, b[i].lanes - row_product(i, x));
+        x[i].lanes                = x_i;
+        residual[i].lanes         = Lanes<float, B>{};
+        add_transposed(i, -x_i, residual);
+      }
+  }
+
+
+  template <unsigned int B>
+  void
+  BlockSmoother<B>::subtract_remote(NodeValues<B> *residual, const NodeValues<B> *x) const
+  {
+    for (const RemoteSum &entry : remote)
+      residual[entry.node].lanes += entry.sum.lanes * x[entry.node].lanes;
+    for (std::size_t i = pattern.n_owned; i < pattern.n_local; ++i)
+      add_transposed(i, -x[i].lanes, residual);
+  }
+
+
+  template <unsigned int B>
+  void
+  BlockSmoother<B>::backward(NodeValues<B> *x, NodeValues<B> *b) const
+  {
+    for (std::size_t i = pattern.n_owned; i-- > 0;)
+      {
+        const Lanes<float, B> x_i = solve_diagonal(i, b[i].lanes - row_product(i, x));
+        x[i].lanes                = x_i;
+        add_transposed(i, -x_i, b);
+      }
+  }
+
+
+  template class BlockSmoother<3>;
+  template class BlockSmoother<6>;
+} // namespace Supple

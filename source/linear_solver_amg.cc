@@ -1,0 +1,312 @@
+#include <supple/error.h>
+#include <supple/linear_solver.h>
+#include <supple/multigrid.h>
+
+#include <deal.II/lac/solver_cg.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Supple
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using NodeVector = std::vector<NodeValues<3>>;
+
+    // By how much single precision reduces a residual before it is computed anew in double: an
+    // eighth of its digits would be lost at a thousandth (measured on the bar).
+    constexpr double single_precision_reduction = 1e-2;
+
+    // What the coarse levels cost to compute, in iterations, measured on the bar.
+    constexpr double refresh_cost = 7.;
+
+
+    /**
+     * When coarse levels are to be computed anew. The older they are, the more iterations are
+     * needed: e more than with new ones. It pays when the next solution with old ones would cost
+     * more than a solution has cost since the last time, on average: e >= (cost + sum of e) / n.
+     */
+    class RefreshRule
+    {
+    public:
+      bool
+      due() const
+      {
+        return n_solves > 0 && excess * n_solves >= refresh_cost + excess_sum;
+      }
+
+      void
+      refreshed()
+      {
+        n_solves   = 0;
+        excess_sum = 0.;
+        excess     = 0.;
+      }
+
+      void
+      solved(const unsigned int n_iterations)
+      {
+        if (n_solves == 0)
+          new_iterations = n_iterations;
+        excess = double(n_iterations) - double(new_iterations);
+        excess_sum += excess;
+        ++n_solves;
+      }
+
+    private:
+      unsigned int n_solves       = 0;
+      unsigned int new_iterations = 0;
+      double excess = 0., excess_sum = 0.;
+    };
+
+
+    /** Sums of products, in single precision over a few nodes at a time. */
+    double
+    product(const NodeVector &x, const NodeVector &y, const std::size_t n)
+    {
+      constexpr std::size_t at_once = 128;
+
+      double sum = 0.;
+      for (std::size_t first = 0; first < n; first += at_once)
+        {
+          Lanes<float, 3> part[2]{};
+          const std::size_t end = std::min(n, first + at_once);
+          for (std::size_t node = first; node < end; ++node)
+            part[node % 2] += x[node].lanes * y[node].lanes;
+          for (unsigned int i = 0; i < 3; ++i)
+            sum += double(part[0][i]) + double(part[1][i]);
+        }
+      return sum;
+    }
+
+
+    /** Our multigrid for deal.II's conjugate gradients. */
+    class DoublePrecision
+    {
+    public:
+      DoublePrecision(Multigrid &multigrid, NodeVector &r, NodeVector &z)
+        : multigrid(multigrid)
+        , r(r)
+        , z(z)
+      {
+      }
+
+      void
+      vmult(Vector &y, const Vector &x) const
+      {
+        const double size  = x.linfty_norm(); // single precision would not reach to 1e-50
+        const double scale = size > 0. ? 1. / size : 1.;
+        for (std::size_t node = 0; node < multigrid.halo.n_owned; ++node)
+          for (unsigned int i = 0; i < 3; ++i)
+            r[node].lanes[i] = scale * x.local_element(3 * node + i);
+        multigrid.apply(z.data(), r.data());
+        for (std::size_t node = 0; node < multigrid.halo.n_owned; ++node)
+          for (unsigned int i = 0; i < 3; ++i)
+            y.local_element(3 * node + i) = size * z[node].lanes[i];
+      }
+
+    private:
+      Multigrid &multigrid;
+      NodeVector &r, &z;
+    };
+
+
+    /**
+     * Conjugate gradients in single precision, of which one keeps the residual true: whenever it
+     * has become smaller by a factor it is computed anew in double precision, and the iterations go
+     * on with the direction they had (van der Vorst, Ye 2000: reliable updates). Where this does
+     * not come forward, since the matrix is too badly conditioned for single precision, it is the
+     * preconditioner alone that stays in it.
+     */
+    class AmgSolver : public LinearSolver
+    {
+    public:
+      AmgSolver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort)
+        : LinearSolver(A, parameters, effort)
+        , multigrid(A.matrix(), A.body.partitioner)
+        , n_owned(A.body.n_owned)
+        , x_single(A.body.n_local)
+        , r(A.body.n_local)
+        , z(A.body.n_local)
+        , p(A.body.n_local)
+        , q(A.body.n_local)
+      {
+      }
+
+      std::string
+      name() const override
+      {
+        return "cg-amg";
+      }
+
+    private:
+      void
+      do_prepare(const Vector &displacement) override
+      {
+        if (built && !rule.due())
+          {
+            multigrid.refresh_finest();
+            return;
+          }
+        find_rigid_motions(displacement);
+        if (built)
+          multigrid.refresh(rigid_motions);
+        else
+          multigrid.build(rigid_motions);
+        built = true;
+        rule.refreshed();
+        ++effort.hierarchies;
+      }
+
+      /** Three translations and three rotations of the deformed body at each node. */
+      void
+      find_rigid_motions(const Vector &displacement)
+      {
+        const Point<3> center = A.body.mesh.bounding_box.center();
+        rigid_motions.assign(18 * static_cast<std::size_t>(n_owned), 0.);
+        for (std::size_t node = 0; node < n_owned; ++node)
+          for (unsigned int i = 0; i < 3; ++i)
+            {
+              if (A.constraints.holds(3 * node + i))
+                continue;
+              const unsigned int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+              const auto x = [&](const unsigned int d) {
+                return (A.body.positions[node][d] + displacement.local_element(3 * node + d) -
+                        center[d]) /
+                       A.body.mesh.diameter();
+              };
+              double *const motions = &rigid_motions[6 * (3 * node + i)];
+              motions[i]            = 1.;
+              motions[3 + i1]       = x(i2);
+              motions[3 + i2]       = -x(i1);
+            }
+      }
+
+      unsigned int
+      do_solve(Vector &x, const Vector &b, Vector &residual) override
+      {
+        const double size = b.l2_norm(), goal = parameters.tolerance * size;
+        double norm               = size;
+        unsigned int n_iterations = 0;
+        last_rho                  = 0.;
+        x                         = 0.;
+        residual                  = b;
+        while (norm > goal && single_precision)
+          {
+            const double reduction =
+              std::max(single_precision_reduction, std::min(0.9 * goal / norm, 0.5));
+            n_iterations += reduce(residual, size, reduction, n_iterations);
+            for (std::size_t node = 0; node < n_owned; ++node)
+              for (unsigned int i = 0; i < 3; ++i)
+                x.local_element(3 * node + i) +=
+                  size * multigrid.scale() * double(x_single[node].lanes[i]);
+            const double before = norm;
+            norm                = set_residual(residual, x, b);
+            single_precision    = norm <= std::max(goal, std::sqrt(reduction) * before);
+          }
+        if (norm > goal)
+          n_iterations += solve_in_double_precision(x, b, residual);
+        rule.solved(n_iterations);
+        return n_iterations;
+      }
+
+      /**
+       * Makes a residual smaller by a factor.
+       * @param size its unit
+       * @return the number of iterations
+       */
+      unsigned int
+      reduce(const Vector &residual,
+             const double size,
+             const double reduction,
+             const unsigned int n_before)
+      {
+        for (std::size_t node = 0; node < n_owned; ++node)
+          {
+            for (unsigned int i = 0; i < 3; ++i)
+              r[node].lanes[i] = residual.local_element(3 * node + i) / size;
+            x_single[node].lanes = Lanes<float, 3>{};
+          }
+        const double goal_square = reduction * reduction * sum(product(r, r, n_owned));
+        for (unsigned int n = 1;; ++n)
+          {
+            multigrid.apply(z.data(), r.data());
+            const double rho = sum(product(r, z, n_owned));
+            const float beta = last_rho > 0. ? rho / last_rho : 0.;
+            for (std::size_t node = 0; node < n_owned; ++node)
+              p[node].lanes = z[node].lanes + beta * p[node].lanes;
+            last_rho = rho;
+
+            multigrid.halo.update(p.data());
+            multigrid.vmult(q.data(), p.data());
+            const float alpha = rho / sum(product(p, q, n_owned));
+            for (std::size_t node = 0; node < n_owned; ++node)
+              {
+                x_single[node].lanes += alpha * p[node].lanes;
+                r[node].lanes -= alpha * q[node].lanes;
+              }
+            const double square = sum(product(r, r, n_owned));
+            if (!(square > goal_square)) // done, or not a number
+              return n;
+            if (n_before + n >= parameters.iteration_limit)
+              fail(n_before + n, std::sqrt(square));
+          }
+      }
+
+      double
+      sum(const double part) const
+      {
+        return multigrid.halo.single() ? part : Utilities::MPI::sum(part, A.body.mesh.communicator);
+      }
+
+      /** Goes on from x. */
+      unsigned int
+      solve_in_double_precision(Vector &x, const Vector &b, Vector &residual)
+      {
+        const double size = b.l2_norm();
+        SolverControl control(parameters.iteration_limit, parameters.tolerance * size);
+        SolverCG<Vector> cg(control, memory);
+        try
+          {
+            cg.solve(A, x, b, DoublePrecision(multigrid, r, z));
+          }
+        catch (const SolverControl::NoConvergence &)
+          {
+            fail(control.last_step(), control.last_value() / size);
+          }
+        set_residual(residual, x, b);
+        return control.last_step();
+      }
+
+      [[noreturn]] void
+      fail(const unsigned int n_iterations, const double reached) const
+      {
+        std::ostringstream text;
+        text << "conjugate gradients (" << name() << ") did not reach the relative residual "
+             << parameters.tolerance << " in " << n_iterations << " iterations; they got to "
+             << reached;
+        throw ComputationError(text.str());
+      }
+
+      Multigrid multigrid;
+      RefreshRule rule;
+      bool built            = false;
+      bool single_precision = true; ///< until it is not enough
+      const std::size_t n_owned;
+      std::vector<double> rigid_motions;
+      NodeVector x_single, r, z, p, q;
+      double last_rho = 0.;
+      GrowingVectorMemory<Vector> memory;
+    };
+  } // namespace
+
+
+  std::unique_ptr<LinearSolver>
+  make_cg_amg_solver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort)
+  {
+    return std::make_unique<AmgSolver>(A, parameters, effort);
+  }
+} // namespace Supple
