@@ -353,7 +353,7 @@ namespace
         const SymmetricPattern pattern = full_pattern(body.positions.size());
         triangles.connect(pattern);
         SymmetricBlockMatrix A(pattern);
-        triangles.add_tangent(2., 3., A);
+        triangles.add_tangent(2., 3., 3., A);
         Nodal by_matrix(u.size()), mass(u.size());
         A.vmult(by_matrix.data(), w.data());
         triangles.add_mass_product(w.data(), mass.data());
