@@ -50,7 +50,7 @@ namespace Supple
         else if (word == "--quiet")
           line.quiet = true;
         else if (word == "--set")
-          line.overrides.push_back(value("\"Section/Entry=value\""));
+          line.overrides.push_back({value("\"Section/Entry=value\"")});
         else if (word == "--output")
           line.output = value("a folder");
         else if (word == "--print-parameters")

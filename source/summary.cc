@@ -74,6 +74,7 @@ namespace Supple
 
     json["steps"]            = steps;
     json["rejected_steps"]   = effort.rejected_steps;
+    json["failed_steps"]     = effort.failed_steps;
     json["steps_per_second"] = run_seconds > 0. ? steps / run_seconds : 0.;
     Json &seconds            = json["seconds"];
     seconds["setup"]         = setup_seconds;

@@ -37,6 +37,10 @@ namespace Supple
     void
     start(const State &state);
 
+    /** So far. */
+    void
+    count_rejections();
+
     Sundials::StateVector rates, error;
     std::vector<double> work_space;
     void *memory           = nullptr;

@@ -2,9 +2,9 @@
 #define supple_parameters_h
 
 #include <supple/material.h>
+#include <supple/parameter_file.h>
 #include <supple/rotation.h>
 
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 
 #include <array>
@@ -313,11 +313,11 @@ namespace Supple
     std::string scene_folder; ///< where files that the scene names are looked for
 
     /**
-     * Reads a scene file and applies @p overrides ("Section/Entry=value") on top.
+     * Reads a scene file and applies @p overrides on top.
      * @throws InputError with file, line, entry, what was found and what would be right.
      */
     static Parameters
-    read(const std::string &file, const std::vector<std::string> &overrides = {});
+    read(const std::string &file, const std::vector<Override> &overrides = {});
 
     /** The subsection of a motion: Motion, Motion 2, ... */
     static std::string
@@ -347,8 +347,7 @@ namespace Supple
     void
     check() const;
 
-    std::map<std::string, std::string> places; ///< entry -> file:line or "--set"
-    std::map<std::string, std::string> values; ///< entry -> value as text
+    ParameterFile file;
     std::string as_used;
   };
 
