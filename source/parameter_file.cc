@@ -172,7 +172,7 @@ namespace Supple
   ParameterFile::place(const std::string &entry) const
   {
     const auto found = places.find(entry);
-    return found == places.end() ? entry + " (not set in " + file + ")" : found->second;
+    return found == places.end() ? file : found->second;
   }
 
 

@@ -208,6 +208,7 @@ namespace Supple
     double newton_tolerance       = 1e-8;
     unsigned int newton_limit     = 100;
     unsigned int n_retries        = 10;
+    bool estimate_error           = false; ///< by a second run
 
     void
     declare(dealii::ParameterHandler &prm);
@@ -222,6 +223,10 @@ namespace Supple
     bool
     is_explicit() const;
 
+    /** With which power of a fixed step the error falls; 0 for ida, which changes its order. */
+    unsigned int
+    order() const;
+
     bool
     has_variable_steps() const;
 
@@ -232,6 +237,9 @@ namespace Supple
   private:
     void
     declare_tolerances(dealii::ParameterHandler &prm);
+
+    void
+    declare_newton(dealii::ParameterHandler &prm);
   };
 
 

@@ -5,10 +5,12 @@
 #include <supple/frames.h>
 #include <supple/probes.h>
 #include <supple/progress.h>
+#include <supple/step_doubling.h>
 #include <supple/tables.h>
 #include <supple/time_integrator.h>
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -18,9 +20,19 @@ namespace Supple
   class Simulation
   {
   public:
+    /** An accepted state, and what was measured of it. */
+    struct Observation
+    {
+      const Measurement &measurement;
+      const std::vector<double> &probes; ///< as in a row of probes.csv
+      const State &state;
+    };
+
+    using Observer = std::function<void(const Observation &)>;
+
     /**
      * Builds all that the scene needs and validates it; writes nothing.
-     * @param folder of the results
+     * @param folder of the results; if empty, the run writes nothing either
      * @param quiet  no words on the screen
      * @throws InputError
      */
@@ -29,9 +41,41 @@ namespace Supple
                bool quiet,
                MPI_Comm communicator);
 
-    /** @throws ComputationError with the step and the time, after all files are complete */
+    /**
+     * @param observer is called on all processes with each accepted state, that at the start
+     * included
+     * @throws ComputationError with the step and the time, after all files are complete
+     */
     void
-    run();
+    run(const Observer &observer = {});
+
+    /** A single step, for those who don't run(). @throws ComputationError */
+    void
+    advance();
+
+    bool
+    finished() const;
+
+    /** After the last accepted step [s]; the load factor of a static problem. */
+    double
+    time() const
+    {
+      return now.time;
+    }
+
+    /** Displacement and, if the problem is dynamic, velocity after the last accepted step. */
+    const State &
+    current_state() const
+    {
+      return state;
+    }
+
+    /** What stands in summary.json after the run; before that, nothing. */
+    const std::string &
+    summary() const
+    {
+      return summary_text;
+    }
 
     /** What would be run, as a table; in detail with what was found in the mesh. */
     void
@@ -63,14 +107,26 @@ namespace Supple
     time_loop();
 
     void
-    advance();
-
-    void
     record(const StepReport &report);
+
+    /** Asks the second run for the error. */
+    void
+    estimate_error();
 
     /** Last frame and summary. */
     void
     finish(const std::string &status);
+
+    std::string
+    summarize(const std::string &status);
+
+    /** What the run has to say on the screen at its end. */
+    void
+    print_result() const;
+
+    /** A sentence; empty where nothing is written. */
+    std::string
+    where_results_are(const std::string &which) const;
 
     double
     seconds_since_start() const;
@@ -79,8 +135,11 @@ namespace Supple
     const std::string folder;
     const MPI_Comm communicator;
     const bool stationary;
-    const bool talks;  ///< this process writes on the screen
-    const bool writes; ///< history or frames are wanted
+    const bool talks; ///< this process writes on the screen
+    const bool writes_history;
+    const bool writes_frames;
+    bool observed = false; ///< somebody asks for energies and reactions
+    Observer observer;
     Effort effort;
     const std::chrono::steady_clock::time_point start;
 
@@ -97,14 +156,18 @@ namespace Supple
     Progress progress;
     std::unique_ptr<CsvFile> history;
     std::unique_ptr<CsvFile> probe_history;
+    std::unique_ptr<CsvFile> error_history;
     std::unique_ptr<Frames> frames;
+    std::unique_ptr<StepDoubling> step_doubling;
 
+    std::string summary_text;
     unsigned int step = 0;
     Measurement now;
     double error_estimate = 0.; ///< sum of the local errors [m]
     Vector start_displacement;
     double largest_motion = 0.; ///< of a vertex from its place at the start, so far [m]
     double setup_seconds  = 0.;
+    double run_seconds    = 0.; ///< without those of the second run
   };
 } // namespace Supple
 
