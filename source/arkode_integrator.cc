@@ -270,6 +270,17 @@ namespace Supple
   }
 
 
+  void
+  ArkodeIntegrator::count_rejections()
+  {
+    long inaccurate, failed;
+    ARKStepGetNumErrTestFails(memory, &inaccurate);
+    ARKStepGetNumStepSolveFails(memory, &failed);
+    model.effort.rejected_steps = inaccurate + failed;
+    model.effort.failed_steps   = failed;
+  }
+
+
   StepReport
   ArkodeIntegrator::take_step(State &state)
   {
@@ -278,7 +289,9 @@ namespace Supple
     StepReport report;
     if (adaptive)
       {
-        if (!evolve())
+        const bool succeeded = evolve();
+        count_rejections();
+        if (!succeeded)
           throw_what_failed();
         report.time = ode_time;
         ARKStepGetEstLocalErrors(memory, error);
@@ -380,6 +393,7 @@ namespace Supple
           throw_at(size);
         failure.forget();
         ++model.effort.rejected_steps;
+        ++model.effort.failed_steps;
         model.body.update_rotations(state.block(0), model.effort);
         restart(state);
         set_step_size(size *= 0.5);

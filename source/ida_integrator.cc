@@ -132,6 +132,17 @@ namespace Supple
   }
 
 
+  void
+  IdaIntegrator::count_rejections()
+  {
+    long inaccurate, failed;
+    IDAGetNumErrTestFails(memory, &inaccurate);
+    IDAGetNumStepSolveFails(memory, &failed);
+    model.effort.rejected_steps = inaccurate + failed;
+    model.effort.failed_steps   = failed;
+  }
+
+
   StepReport
   IdaIntegrator::take_step(State &state)
   {
@@ -139,7 +150,9 @@ namespace Supple
       start(state);
     context.message.clear();
     StepReport report;
-    if (IDASolve(memory, end, &report.time, unknowns, rates, IDA_ONE_STEP) < 0)
+    const int status = IDASolve(memory, end, &report.time, unknowns, rates, IDA_ONE_STEP);
+    count_rejections();
+    if (status < 0)
       throw_what_failed();
     failure.forget();
     equation.set_state(state, report.time, unknowns.data());

@@ -19,17 +19,18 @@ namespace Supple
 
 
   InterruptGuard::InterruptGuard()
+    : outer_interrupt(std::signal(SIGINT, note_signal))
+    , outer_termination(std::signal(SIGTERM, note_signal))
   {
-    signal_received = 0;
-    std::signal(SIGINT, note_signal);
-    std::signal(SIGTERM, note_signal);
+    if (outer_interrupt != note_signal)
+      signal_received = 0;
   }
 
 
   InterruptGuard::~InterruptGuard()
   {
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
+    std::signal(SIGINT, outer_interrupt);
+    std::signal(SIGTERM, outer_termination);
   }
 
 

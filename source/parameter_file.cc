@@ -1,5 +1,7 @@
 #include <supple/error.h>
+#include <supple/parameter_file.h>
 #include <supple/parameters.h>
+#include <supple/study_parameters.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -29,21 +31,34 @@ namespace Supple
     }
 
 
-    /** Finds at which line each entry of a parameter file is set. */
-    std::map<std::string, std::string>
-    find_places(const std::string &file, const std::string &text)
+    /** The file:line of entries and of the outermost subsections. */
+    struct Lines
     {
-      std::map<std::string, std::string> places;
+      std::map<std::string, std::string> entries;
+      std::map<std::string, std::string> sections;
+    };
+
+
+    /** Finds at which line each entry of a parameter file is set. */
+    Lines
+    find_lines(const std::string &file, const std::string &text)
+    {
+      Lines found_lines;
       std::vector<std::string> sections;
       std::istringstream lines(text);
       std::string line;
       for (unsigned int number = 1; std::getline(lines, line); ++number)
         {
+          const std::string place = file + ":" + std::to_string(number);
           std::smatch found;
           if (std::regex_match(line,
                                found,
                                std::regex("\\s*subsection\\s+(.*?)\\s*(#.*)?", std::regex::icase)))
-            sections.push_back(found[1]);
+            {
+              if (sections.empty())
+                found_lines.sections.emplace(found[1], place);
+              sections.push_back(found[1]);
+            }
           else if (std::regex_match(line, std::regex("\\s*end\\s*(#.*)?", std::regex::icase)) &&
                    !sections.empty())
             sections.pop_back();
@@ -54,42 +69,16 @@ namespace Supple
               std::string path;
               for (const std::string &section : sections)
                 path += section + "/";
-              places[path + found[1].str()] = file + ":" + std::to_string(number);
+              found_lines.entries[path + found[1].str()] = place;
             }
         }
-      return places;
-    }
-
-
-    void
-    apply_override(ParameterHandler &prm, const std::string &text, std::string &entry)
-    {
-      const std::string right =
-        "--set takes \"Section/Entry=value\", such as --set \"Time/Steps=10\".";
-      const auto equal = text.find('=');
-      const auto slash = text.find('/');
-      if (equal == std::string::npos || slash == std::string::npos || slash > equal)
-        throw InputError("--set \"" + text + "\": no section, entry or value found. " + right);
-
-      const std::string section = dealii::Utilities::trim(text.substr(0, slash));
-      const std::string name  = dealii::Utilities::trim(text.substr(slash + 1, equal - slash - 1));
-      const std::string value = dealii::Utilities::trim(text.substr(equal + 1));
-      entry                   = section + "/" + name;
-      try
-        {
-          prm.parse_input_from_string("subsection " + section + "\nset " + name + " = " + value +
-                                      "\nend\n");
-        }
-      catch (const dealii::ExceptionBase &exception)
-        {
-          throw InputError(plain_message(exception, "--set \"" + text + "\""));
-        }
+      return found_lines;
     }
   } // namespace
 
 
-  Parameters
-  Parameters::read(const std::string &file, const std::vector<std::string> &overrides)
+  ParameterFile::ParameterFile(const std::string &file)
+    : file(file)
   {
     // parse_input() makes the file if it is not there
     std::ifstream stream(file);
@@ -97,15 +86,66 @@ namespace Supple
       throw InputError(file + ": there is no such parameter file, or it can't be read.");
     std::stringstream content;
     content << stream.rdbuf();
-    if (dealii::Utilities::trim(content.str()).empty())
+    text = content.str();
+    if (dealii::Utilities::trim(text).empty())
       throw InputError(file + ": this parameter file is empty.");
+  }
 
-    Parameters parameters;
-    ParameterHandler prm;
-    parameters.declare(prm);
-    parameters.scene_name   = std::filesystem::path(file).stem().string();
-    parameters.scene_folder = std::filesystem::path(file).parent_path().string();
-    parameters.places       = find_places(file, content.str());
+
+  std::map<std::string, std::string>
+  ParameterFile::sections() const
+  {
+    return find_lines(file, text).sections;
+  }
+
+
+  std::string
+  ParameterFile::name() const
+  {
+    return std::filesystem::path(file).stem().string();
+  }
+
+
+  std::string
+  ParameterFile::folder() const
+  {
+    return std::filesystem::path(file).parent_path().string();
+  }
+
+
+  void
+  ParameterFile::apply(ParameterHandler &prm, const Override &override)
+  {
+    const std::string &text = override.text;
+    const bool in_a_file    = override.place.find(':') != std::string::npos;
+    const std::string here  = override.place + (in_a_file ? ": \"" : " \"") + text + "\"";
+    const auto equal        = text.find('=');
+    const auto slash        = text.find('/');
+    if (equal == std::string::npos || slash == std::string::npos || slash > equal)
+      throw InputError(here + ": no section, entry or value found. What is right is " +
+                       "\"Section/Entry=value\", such as \"Time/Steps=10\".");
+
+    const std::string section = dealii::Utilities::trim(text.substr(0, slash));
+    const std::string name    = dealii::Utilities::trim(text.substr(slash + 1, equal - slash - 1));
+    const std::string value   = dealii::Utilities::trim(text.substr(equal + 1));
+    try
+      {
+        prm.parse_input_from_string("subsection " + section + "\nset " + name + " = " + value +
+                                    "\nend\n");
+      }
+    catch (const dealii::ExceptionBase &exception)
+      {
+        throw InputError(plain_message(exception, here));
+      }
+    places[section + "/" + name] = override.place;
+  }
+
+
+  void
+  ParameterFile::parse(ParameterHandler &prm, const std::vector<Override> &overrides)
+  {
+    places = find_lines(file, text).entries;
+    std::istringstream content(text);
     try
       {
         prm.parse_input(content, file);
@@ -114,22 +154,50 @@ namespace Supple
       {
         throw InputError(plain_message(exception));
       }
-    for (const std::string &text : overrides)
-      {
-        std::string entry;
-        apply_override(prm, text, entry);
-        parameters.places[entry] = "--set";
-      }
+    for (const Override &override : overrides)
+      apply(prm, override);
 
-    for (const auto &[entry, place] : parameters.places)
+    for (const auto &[entry, place] : places)
       {
         const auto slash = entry.find('/');
         if (slash == std::string::npos)
           continue;
         prm.enter_subsection(entry.substr(0, slash));
-        parameters.values[entry] = prm.get(entry.substr(slash + 1));
+        values[entry] = prm.get(entry.substr(slash + 1));
         prm.leave_subsection();
       }
+  }
+
+
+  std::string
+  ParameterFile::place(const std::string &entry) const
+  {
+    const auto found = places.find(entry);
+    return found == places.end() ? file : found->second;
+  }
+
+
+  std::string
+  ParameterFile::origin(const std::string &entry) const
+  {
+    const auto found = places.find(entry);
+    if (found == places.end())
+      return entry + " (not set in the scene)";
+    return found->second + ": " + entry + " = " + values.at(entry);
+  }
+
+
+  Parameters
+  Parameters::read(const std::string &file, const std::vector<Override> &overrides)
+  {
+    Parameters parameters;
+    ParameterHandler prm;
+    parameters.declare(prm);
+    parameters.file         = ParameterFile(file);
+    parameters.scene_name   = parameters.file.name();
+    parameters.scene_folder = parameters.file.folder();
+    parameters.file.parse(prm, overrides);
+
     std::ostringstream used;
     prm.print_parameters(used, ParameterHandler::PRM);
     parameters.as_used = used.str();
@@ -149,10 +217,7 @@ namespace Supple
   std::string
   Parameters::origin(const std::string &entry) const
   {
-    const auto place = places.find(entry);
-    if (place == places.end())
-      return entry + " (not set in the scene)";
-    return place->second + ": " + entry + " = " + values.at(entry);
+    return file.origin(entry);
   }
 
 
@@ -167,9 +232,25 @@ namespace Supple
   Parameters::print_reference(std::ostream &out, const std::string &format)
   {
     Parameters parameters;
-    ParameterHandler prm;
-    parameters.declare(prm);
-    prm.print_parameters(out, format == "json" ? ParameterHandler::JSON : ParameterHandler::PRM);
+    StudyParameters study;
+    ParameterHandler scene_entries, study_entries;
+    parameters.declare(scene_entries);
+    study.declare(study_entries);
+    if (format == "json")
+      {
+        study.declare(scene_entries);
+        scene_entries.print_parameters(out, ParameterHandler::JSON);
+        return;
+      }
+    scene_entries.print_parameters(out, ParameterHandler::PRM);
+
+    // What is printed stays a scene.
+    out << "\n# A study is a file of its own, with this subsection alone:\n";
+    std::stringstream text;
+    study_entries.print_parameters(text, ParameterHandler::PRM);
+    std::string line;
+    while (std::getline(text, line))
+      out << (line.empty() ? "" : "# ") << line << '\n';
   }
 
 

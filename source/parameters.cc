@@ -311,6 +311,35 @@ namespace Supple
   }
 
 
+  unsigned int
+  TimeParameters::order() const
+  {
+    switch (method)
+      {
+        case Method::backward_euler:
+        case Method::implicit_backward_euler:
+          return 1;
+        case Method::implicit_midpoint:
+        case Method::sdirk2:
+        case Method::trbdf2:
+        case Method::explicit2:
+          return 2;
+        case Method::esdirk3:
+        case Method::explicit3:
+          return 3;
+        case Method::esdirk4:
+        case Method::explicit4:
+          return 4;
+        case Method::esdirk5:
+        case Method::explicit5:
+          return 5;
+        case Method::ida:
+          return 0;
+      }
+    return 0;
+  }
+
+
   bool
   TimeParameters::has_variable_steps() const
   {
@@ -342,6 +371,9 @@ namespace Supple
       throw InputError(
         parameters.origin("Time/Method") +
         ": an explicit method needs a diagonal mass matrix: Material/Mass = lumped.");
+    if (estimate_error && problem == Problem::stationary)
+      throw InputError(parameters.origin("Time/Estimate error") +
+                       ": a static problem has no steps in time; it must be false.");
   }
 
 
@@ -388,6 +420,44 @@ namespace Supple
 
 
   void
+  TimeParameters::declare_newton(ParameterHandler &prm)
+  {
+    add(prm,
+        "Newton tolerance",
+        newton_tolerance,
+        "none",
+        Range::between(0, 1),
+        "A static step is done when the forces out of balance are below this fraction of the loads "
+        "and reactions; a stage of a fixed step when its correction is below this fraction of the "
+        "motion "
+        "or of 1 % of the body's diameter.");
+    add(prm,
+        "Newton iterations",
+        newton_limit,
+        "none",
+        Range::whole_number(1),
+        "A static step, or a stage of a fixed step, that needs more has failed.");
+    add_choice(
+      prm,
+      "Tangent",
+      tangent,
+      {{"auto", TangentChoice::automatic},
+       {"frozen", TangentChoice::frozen},
+       {"consistent", TangentChoice::consistent},
+       {"definite", TangentChoice::definite}},
+      "The operator of Newton's method for polar rotations: as if the rotations stayed what they "
+      "are, the derivative of the force, or its projection cell by cell to one that is not "
+      "indefinite. auto takes the derivative, and the projection where that fails.");
+    add(prm,
+        "Retries",
+        n_retries,
+        "none",
+        Range::whole_number(0),
+        "A fixed step that fails is tried again in halves, at most this many times.");
+  }
+
+
+  void
   TimeParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Time");
@@ -429,21 +499,7 @@ namespace Supple
       "Whether the step follows from the tolerances below. Methods with an error estimate: sdirk2, "
       "trbdf2, esdirk3 to esdirk5, explicit2 to explicit5; ida always.");
     declare_tolerances(prm);
-    add(prm,
-        "Newton tolerance",
-        newton_tolerance,
-        "none",
-        Range::between(0, 1),
-        "A static step is done when the forces out of balance are below this fraction of the loads "
-        "and reactions; a stage of a fixed step when its correction is below this fraction of the "
-        "motion "
-        "or of 1 % of the body's diameter.");
-    add(prm,
-        "Newton iterations",
-        newton_limit,
-        "none",
-        Range::whole_number(1),
-        "A static step, or a stage of a fixed step, that needs more has failed.");
+    declare_newton(prm);
     add_choice(
       prm,
       "Tangent",
@@ -470,6 +526,14 @@ namespace Supple
       "warning "
       "at the end, or the step is done again, backward euler with rotations that follow, and then "
       "in halves (fixed steps only).");
+    add_choice(
+      prm,
+      "Estimate error",
+      estimate_error,
+      {{"true", true}, {"false", false}},
+      "Whether a second run with half the step, or a tenth of the tolerances, moves along: "
+      "from how far the two are apart follows the error. It takes two to three times the "
+      "time of the run itself.");
     prm.leave_subsection();
   }
 

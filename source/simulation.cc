@@ -27,8 +27,8 @@ namespace Supple
     , communicator(communicator)
     , stationary(parameters.time.problem == TimeParameters::Problem::stationary)
     , talks(!quiet && Utilities::MPI::this_mpi_process(communicator) == 0)
-    , writes(parameters.output.history ||
-             parameters.output.frames != OutputParameters::Frames::none)
+    , writes_history(!folder.empty() && parameters.output.history)
+    , writes_frames(!folder.empty() && parameters.output.frames != OutputParameters::Frames::none)
     , start(std::chrono::steady_clock::now())
     , mesh(parameters, communicator)
     , body(mesh, parameters)
@@ -55,7 +55,9 @@ namespace Supple
     create_initial_state();
     integrator         = TimeIntegrator::create(model(), state.block(0));
     start_displacement = state.block(0);
-    setup_seconds      = seconds_since_start();
+    if (parameters.time.estimate_error)
+      step_doubling = std::make_unique<StepDoubling>(parameters, communicator);
+    setup_seconds = seconds_since_start();
   }
 
 
@@ -277,7 +279,9 @@ namespace Supple
   void
   Simulation::open_output()
   {
-    if (parameters.output.frames != OutputParameters::Frames::none)
+    if (folder.empty())
+      return;
+    if (writes_frames)
       frames = std::make_unique<Frames>(body, parameters.output, folder);
     resume();
 
@@ -290,7 +294,7 @@ namespace Supple
           std::ostringstream used;
           parameters.print(used);
           write_whole_file(folder + "/parameters.prm", used.str());
-          if (parameters.output.history)
+          if (writes_history)
             open_tables();
         }
       catch (const InputError &error)
@@ -312,10 +316,11 @@ namespace Supple
   Simulation::clear_folder() const
   {
     namespace fs = std::filesystem;
-    fs::create_directories(fs::path(folder) / "solution");
+    fs::create_directories(writes_frames ? fs::path(folder) / "solution" : fs::path(folder));
     for (const char *name : {"solution.pvd",
                              "history.csv",
                              "probes.csv",
+                             "error.csv",
                              "summary.json",
                              "checkpoint.cbor",
                              "checkpoint.previous.cbor"})
@@ -324,9 +329,10 @@ namespace Supple
       if (entry.path().filename().string().rfind("profile_", 0) == 0 &&
           entry.path().extension() == ".csv")
         fs::remove(entry.path());
-    for (const auto &entry : fs::directory_iterator(fs::path(folder) / "solution"))
-      if (entry.path().filename().string().rfind("frame_", 0) == 0)
-        fs::remove(entry.path()); // of an earlier run
+    if (fs::is_directory(fs::path(folder) / "solution"))
+      for (const auto &entry : fs::directory_iterator(fs::path(folder) / "solution"))
+        if (entry.path().filename().string().rfind("frame_", 0) == 0)
+          fs::remove(entry.path()); // of an earlier run
   }
 
 
@@ -342,6 +348,10 @@ namespace Supple
     history = open("history.csv", Measurement::column_names());
     if (!probes.empty())
       probe_history = open("probes.csv", probes.column_names());
+    if (step_doubling)
+      error_history =
+        std::make_unique<CsvFile>(folder + "/error.csv",
+                                  std::vector<std::string>{"step", "time", "error"});
   }
 
 
@@ -374,7 +384,7 @@ namespace Supple
     seconds_before = saved->at("seconds");
     integrator->load(saved->at("integrator"));
     body.update_rotations(state.block(0), effort);
-    if (writes)
+    if (observed)
       diagnostics.load(saved->at("diagnostics"));
     if (frames)
       frames->load(saved->at("frames"));
@@ -393,7 +403,7 @@ namespace Supple
                            {"seconds", seconds_of_run()},
                            {"integrator", integrator->save()},
                            {"profiles", profiles.save()}};
-    if (writes)
+    if (observed)
       rest["diagnostics"] = diagnostics.save();
     if (frames)
       rest["frames"] = frames->save();
@@ -402,9 +412,18 @@ namespace Supple
   }
 
 
-  void
-  Simulation::run()
+  std::string
+  Simulation::where_results_are(const std::string &which) const
   {
+    return folder.empty() ? "" : " The results " + which + " are in " + folder + ".";
+  }
+
+
+  void
+  Simulation::run(const Observer &watching)
+  {
+    observer = watching;
+    observed = writes_history || writes_frames || observer;
     open_output();
     print_description(false);
     try
@@ -420,11 +439,11 @@ namespace Supple
     catch (const ComputationError &error)
       {
         progress.clear();
-        const std::string time = stationary ? "load factor " : "time ";
-        std::ostringstream text;
-        text << "Step " << step + 1 << " (from " << time << now.time
-             << " on) failed: " << error.what() << ". The results up to " << time << now.time
-             << " are in " << folder << ".";
+        const std::string axis = stationary ? "load factor " : "time ";
+        std::ostringstream time, text;
+        time << axis << now.time;
+        text << "Step " << step + 1 << " (from " << time.str() << " on) failed: " << error.what()
+             << "." << where_results_are("up to " + time.str());
         finish("failed: " + text.str());
         throw ComputationError(text.str());
       }
@@ -439,20 +458,20 @@ namespace Supple
   Simulation::time_loop()
   {
     const InterruptGuard interrupt;
-    while (!integrator->finished())
+    while (!finished())
       {
         advance();
         progress.update(step, now.time / integrator->end);
-        if (parameters.checkpoint.wanted() && checkpoint.due(step))
+        if (parameters.checkpoint.wanted() && !folder.empty() && checkpoint.due(step))
           write_checkpoint();
-        if (!integrator->finished() && interrupt.requested(communicator))
+        if (!finished() && interrupt.requested(communicator))
           {
             progress.clear();
             if (parameters.checkpoint.wanted())
               write_checkpoint();
             finish("interrupted");
-            throw InterruptedError("Interrupted after step " + std::to_string(step) +
-                                   "; the results so far are in " + folder + ".");
+            throw InterruptedError("Interrupted after step " + std::to_string(step) + "." +
+                                   where_results_are("so far"));
           }
       }
     progress.clear();
@@ -460,10 +479,17 @@ namespace Supple
   }
 
 
+  bool
+  Simulation::finished() const
+  {
+    return integrator->finished();
+  }
+
+
   void
   Simulation::advance()
   {
-    const StepReport report = integrator->advance(state, writes);
+    const StepReport report = integrator->advance(state, observed);
     ++step;
     now.step = step;
     now.time = report.time;
@@ -471,75 +497,120 @@ namespace Supple
     largest_motion =
       std::max(largest_motion, largest_vertex_distance(state.block(0), start_displacement));
     record(report);
+    if (step_doubling)
+      estimate_error();
   }
 
 
   void
   Simulation::record(const StepReport &report)
   {
-    if (!writes)
+    if (!observed)
       return;
     {
       const PhaseTimer timer(effort, Phase::diagnostics);
-      now = diagnostics.measure(step, now.time, seconds_of_run(), state, report);
+      const double seconds = seconds_of_run();
+      now                  = diagnostics.measure(
+        step, now.time, step_doubling ? seconds - step_doubling->seconds : seconds, state, report);
     }
-    const PhaseTimer timer(effort, Phase::output);
-    if (history)
-      history->write_row(now.row());
-    if (parameters.output.history && !probes.empty())
+    std::vector<double> row = {double(step), now.time};
+    if (!probes.empty() && (writes_history || observer))
       {
-        std::vector<double> row = {double(step), now.time};
-        const auto values       = probes.values(state, integrator->reactions());
+        const auto values = probes.values(state, integrator->reactions());
         row.insert(row.end(), values.begin(), values.end());
-        if (probe_history)
-          probe_history->write_row(row);
       }
-    if (parameters.output.history)
-      profiles.write(step, now.time, state.block(0), false);
-    if (frames && frames->due(state, now))
-      frames->write(state, now);
+    {
+      const PhaseTimer timer(effort, Phase::output);
+      if (history)
+        history->write_row(now.row());
+      if (probe_history)
+        probe_history->write_row(row);
+      if (writes_history)
+        profiles.write(step, now.time, state.block(0), false);
+      if (frames && frames->due(state, now))
+        frames->write(state, now);
+    }
+    if (observer)
+      observer({now, row, state});
+  }
+
+
+  void
+  Simulation::estimate_error()
+  {
+    const std::optional<double> error = step_doubling->follow(now.time, state);
+    if (error && error_history)
+      error_history->write_row({double(step), now.time, *error});
   }
 
 
   void
   Simulation::finish(const std::string &status)
   {
-    if (parameters.output.history)
+    if (writes_history)
       profiles.write(step, now.time, state.block(0), true);
     if (frames)
       {
         const PhaseTimer timer(effort, Phase::output);
         frames->write(state, now);
       }
+    run_seconds = seconds_of_run();
+    if (step_doubling)
+      run_seconds -= step_doubling->seconds;
+    summary_text = summarize(status);
+    if (!folder.empty() && Utilities::MPI::this_mpi_process(communicator) == 0)
+      write_whole_file(folder + "/summary.json", summary_text);
+    if (talks && status == "done")
+      print_result();
+  }
+
+
+  std::string
+  Simulation::summarize(const std::string &status)
+  {
     Summary summary;
     summary.status         = status;
     summary.warnings       = warnings();
     summary.integrator     = integrator->name();
     summary.steps          = step;
     summary.setup_seconds  = setup_seconds;
-    summary.run_seconds    = seconds_of_run();
+    summary.run_seconds    = run_seconds;
     summary.error_estimate = error_estimate;
     summary.largest_motion = largest_motion;
+    summary.step_doubling  = step_doubling.get();
     summary.frames         = frames ? frames->n_written() : 0;
-    summary.history        = parameters.output.history;
-    summary.probes         = parameters.output.history && !probes.empty();
-    summary.observed       = writes;
+    summary.history        = writes_history;
+    summary.probes         = writes_history && !probes.empty();
+    summary.observed       = observed;
     summary.last           = now;
     summary.extremes       = diagnostics.extremes();
     Vector rest;
     body.initialize(rest);
     summary.distance_from_rest = largest_vertex_distance(state.block(0), rest);
-    if (Utilities::MPI::this_mpi_process(communicator) == 0)
-      write_whole_file(folder + "/summary.json", summary.to_json(model()));
+    return summary.to_json(model());
+  }
 
-    if (talks && status == "done")
-      {
-        std::cout << "done: " << step << " steps in " << readable_duration(summary.run_seconds)
-                  << ", " << std::lround(step / summary.run_seconds) << " steps/s";
-        if (implicit_operator.has_mass() && std::isfinite(error_estimate))
-          std::cout << "; sum of local errors " << error_estimate << " m beside a motion of "
-                    << largest_motion << " m";
-        std::cout << "; " << summary.frames << " frames in " << folder << std::endl;
-      }
+
+  void
+  Simulation::print_result() const
+  {
+    std::cout << "done: " << step << " steps in " << readable_duration(run_seconds) << ", "
+              << std::lround(step / run_seconds) << " steps/s";
+    if (implicit_operator.has_mass())
+      std::cout << "; motion " << largest_motion << " m";
+    if (implicit_operator.has_mass() && std::isfinite(error_estimate))
+      std::cout << ", sum of local errors " << error_estimate << " m";
+    std::cout << "; " << (frames ? frames->n_written() : 0) << " frames in " << folder << std::endl;
+    if (!step_doubling)
+      return;
+    if (step_doubling->failure.empty() && largest_motion > 0.)
+      std::cout << "error: " << step_doubling->largest << " m ("
+                << 100. * step_doubling->largest / largest_motion << " % of the motion), "
+                << step_doubling->last << " m at the end, by a second run with "
+                << step_doubling->name << " in " << readable_duration(step_doubling->seconds)
+                << std::endl;
+    else if (!step_doubling->failure.empty())
+      std::cout << "error: unknown, for the second run failed: " << step_doubling->failure
+                << std::endl;
   }
 } // namespace Supple

@@ -46,6 +46,31 @@ namespace Supple
               {"max_volume_ratio", last.max_volume_ratio},
               {"inverted", last.inverted}};
     }
+
+
+    /** Not a number, where the method has no estimate, becomes null. */
+    Json
+    errors(const Summary &summary)
+    {
+      const auto relative = [&](const double error) {
+        return summary.largest_motion > 0. ? error / summary.largest_motion : 0.;
+      };
+      Json json = {{"sum_of_local_errors", summary.error_estimate},
+                   {"largest_motion", summary.largest_motion},
+                   {"relative", relative(summary.error_estimate)}};
+      if (const StepDoubling *const doubling = summary.step_doubling)
+        {
+          Json &second = json["step_doubling"];
+          second       = {{"second_run", doubling->name}, {"seconds", doubling->seconds}};
+          if (doubling->failure.empty())
+            second.update({{"largest", doubling->largest},
+                           {"at_the_end", doubling->last},
+                           {"relative", relative(doubling->largest)}});
+          else
+            second["failed"] = doubling->failure;
+        }
+      return json;
+    }
   } // namespace
 
 
@@ -61,6 +86,7 @@ namespace Supple
     json["cells"]    = model.body.mesh.n_cells;
     json["vertices"] = model.body.mesh.n_vertices;
     json["dofs"]     = model.body.n_dofs();
+    json["volume"]   = model.body.mesh.volume;
     json["held"]     = model.constraints.n_held;
     json["ranks"]    = dealii::Utilities::MPI::n_mpi_processes(model.body.mesh.communicator);
     json["method"]   = integrator;
@@ -74,6 +100,7 @@ namespace Supple
 
     json["steps"]            = steps;
     json["rejected_steps"]   = effort.rejected_steps;
+    json["failed_steps"]     = effort.failed_steps;
     json["steps_per_second"] = run_seconds > 0. ? steps / run_seconds : 0.;
     Json &seconds            = json["seconds"];
     seconds["setup"]         = setup_seconds;
@@ -82,13 +109,7 @@ namespace Supple
       seconds[phase_names[phase]] = effort.seconds[phase];
 
     if (model.implicit_operator.has_mass())
-      {
-        // Not a number, where the method has no estimate, becomes null.
-        json["error_estimate"] = {{"sum_of_local_errors", error_estimate},
-                                  {"largest_motion", largest_motion},
-                                  {"relative",
-                                   largest_motion > 0. ? error_estimate / largest_motion : 0.}};
-      }
+      json["error_estimate"] = errors(*this);
     if (observed)
       {
         json["last"]     = energies(last);

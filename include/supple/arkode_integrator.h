@@ -69,6 +69,10 @@ namespace Supple
     bool
     evolve();
 
+    /** Of variable steps, so far. */
+    void
+    count_rejections();
+
     /** The largest step that does not pass the next multiple of the step, nor is much larger than
      * the last one. */
     double

@@ -1,6 +1,8 @@
 #ifndef supple_command_line_h
 #define supple_command_line_h
 
+#include <supple/parameter_file.h>
+
 #include <string>
 #include <vector>
 
@@ -19,10 +21,10 @@ namespace Supple
     };
 
     Action action = Action::run;
-    std::string scene;                  ///< parameter file
-    std::vector<std::string> overrides; ///< of --set
-    std::string output;                 ///< of --output, may be empty
-    std::string format = "prm";         ///< of --print-parameters
+    std::string scene;               ///< parameter file
+    std::vector<Override> overrides; ///< of --set
+    std::string output;              ///< of --output, may be empty
+    std::string format = "prm";      ///< of --print-parameters
     bool quiet         = false;
 
     /** @throws InputError */

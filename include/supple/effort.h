@@ -33,7 +33,8 @@ namespace Supple
     unsigned long solves             = 0;
     unsigned long linear_iterations  = 0;
     unsigned long newton_iterations  = 0;
-    unsigned long rejected_steps     = 0;
+    unsigned long rejected_steps     = 0;  ///< tried and taken back
+    unsigned long failed_steps       = 0;  ///< those of them whose equations were not solved
     double max_relative_residual     = 0.; ///< true residual over right hand side, worst solve
 
     std::array<double, phase_names.size()> seconds{{}};

@@ -49,6 +49,10 @@ namespace Supple
     void
     start(const State &state);
 
+    /** So far. */
+    void
+    count_rejections();
+
     Sundials::StateVector rates, error;
     std::vector<double> work_space;
     double last_size; ///< a first step that is tried [s]

@@ -5,7 +5,8 @@
 
 namespace Supple
 {
-  /** While it lives, Ctrl-C (SIGINT) and SIGTERM are noted and do not end the program. */
+  /** While it lives, Ctrl-C (SIGINT) and SIGTERM are noted and do not end the program. One may live
+   * within another. */
   class InterruptGuard
   {
   public:
@@ -19,6 +20,11 @@ namespace Supple
     /** Whether any process has been asked to stop; the same answer on all. */
     bool
     requested(MPI_Comm communicator) const;
+
+  private:
+    using Handler = void (*)(int);
+
+    const Handler outer_interrupt, outer_termination;
   };
 } // namespace Supple
 

@@ -2,10 +2,10 @@
 #define supple_parameters_h
 
 #include <supple/material.h>
+#include <supple/parameter_file.h>
 #include <supple/rotation.h>
 #include <supple/section.h>
 
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 
 #include <array>
@@ -267,6 +267,7 @@ namespace Supple
     unsigned int newton_limit     = 100;
     unsigned int n_retries        = 10;
     EnergyGuard energy_guard      = EnergyGuard::off;
+    bool estimate_error           = false; ///< by a second run
 
     void
     declare(dealii::ParameterHandler &prm);
@@ -281,6 +282,10 @@ namespace Supple
     bool
     is_explicit() const;
 
+    /** With which power of a fixed step the error falls; 0 for ida, which changes its order. */
+    unsigned int
+    order() const;
+
     bool
     has_variable_steps() const;
 
@@ -291,6 +296,9 @@ namespace Supple
   private:
     void
     declare_tolerances(dealii::ParameterHandler &prm);
+
+    void
+    declare_newton(dealii::ParameterHandler &prm);
   };
 
 
@@ -395,11 +403,11 @@ namespace Supple
     std::string scene_folder; ///< where files that the scene names are looked for
 
     /**
-     * Reads a scene file and applies @p overrides ("Section/Entry=value") on top.
+     * Reads a scene file and applies @p overrides on top.
      * @throws InputError with file, line, entry, what was found and what would be right.
      */
     static Parameters
-    read(const std::string &file, const std::vector<std::string> &overrides = {});
+    read(const std::string &file, const std::vector<Override> &overrides = {});
 
     /** The subsection of a motion: Motion, Motion 2, ... */
     static std::string
@@ -429,8 +437,7 @@ namespace Supple
     void
     check() const;
 
-    std::map<std::string, std::string> places; ///< entry -> file:line or "--set"
-    std::map<std::string, std::string> values; ///< entry -> value as text
+    ParameterFile file;
     std::string as_used;
   };
 

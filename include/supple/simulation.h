@@ -7,10 +7,12 @@
 #include <supple/probes.h>
 #include <supple/profiles.h>
 #include <supple/progress.h>
+#include <supple/step_doubling.h>
 #include <supple/tables.h>
 #include <supple/time_integrator.h>
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -20,9 +22,19 @@ namespace Supple
   class Simulation
   {
   public:
+    /** An accepted state, and what was measured of it. */
+    struct Observation
+    {
+      const Measurement &measurement;
+      const std::vector<double> &probes; ///< as in a row of probes.csv
+      const State &state;
+    };
+
+    using Observer = std::function<void(const Observation &)>;
+
     /**
      * Builds all that the scene needs and validates it; writes nothing.
-     * @param folder of the results
+     * @param folder of the results; if empty, the run writes nothing either
      * @param quiet  no words on the screen
      * @throws InputError
      */
@@ -31,9 +43,48 @@ namespace Supple
                bool quiet,
                MPI_Comm communicator);
 
-    /** @throws ComputationError with the step and the time, after all files are complete */
+    /**
+     * @param observer is called on all processes with each accepted state, that at the start
+     * included
+     * @throws ComputationError with the step and the time, after all files are complete
+     */
     void
-    run();
+    run(const Observer &observer = {});
+
+    /** A single step, for those who don't run(). @throws ComputationError */
+    void
+    advance();
+
+    bool
+    finished() const;
+
+    /** After the last accepted step [s]; the load factor of a static problem. */
+    double
+    time() const
+    {
+      return now.time;
+    }
+
+    /** Displacement and, if the problem is dynamic, velocity after the last accepted step. */
+    const State &
+    current_state() const
+    {
+      return state;
+    }
+
+    /** The names of the columns of probes.csv. */
+    std::vector<std::string>
+    probe_columns() const
+    {
+      return probes.column_names();
+    }
+
+    /** What stands in summary.json after the run; before that, nothing. */
+    const std::string &
+    summary() const
+    {
+      return summary_text;
+    }
 
     /** What would be run, as a table; in detail with what was found in the mesh. */
     void
@@ -92,14 +143,26 @@ namespace Supple
     time_loop();
 
     void
-    advance();
-
-    void
     record(const StepReport &report);
+
+    /** Asks the second run for the error. */
+    void
+    estimate_error();
 
     /** Last frame and summary. */
     void
     finish(const std::string &status);
+
+    std::string
+    summarize(const std::string &status);
+
+    /** What the run has to say on the screen at its end. */
+    void
+    print_result() const;
+
+    /** A sentence; empty where nothing is written. */
+    std::string
+    where_results_are(const std::string &which) const;
 
     double
     seconds_since_start() const;
@@ -112,8 +175,11 @@ namespace Supple
     const std::string folder;
     const MPI_Comm communicator;
     const bool stationary;
-    const bool talks;  ///< this process writes on the screen
-    const bool writes; ///< history or frames are wanted
+    const bool talks; ///< this process writes on the screen
+    const bool writes_history;
+    const bool writes_frames;
+    bool observed = false; ///< somebody asks for energies and reactions
+    Observer observer;
     Effort effort;
     const std::chrono::steady_clock::time_point start;
 
@@ -131,9 +197,12 @@ namespace Supple
     Progress progress;
     std::unique_ptr<CsvFile> history;
     std::unique_ptr<CsvFile> probe_history;
+    std::unique_ptr<CsvFile> error_history;
     std::unique_ptr<Frames> frames;
+    std::unique_ptr<StepDoubling> step_doubling;
     Checkpoint checkpoint;
 
+    std::string summary_text;
     unsigned int step     = 0;
     bool resumed          = false;
     double seconds_before = 0.; ///< of the runs that this one goes on from
@@ -142,6 +211,7 @@ namespace Supple
     Vector start_displacement;
     double largest_motion = 0.; ///< of a vertex from its place at the start, so far [m]
     double setup_seconds  = 0.;
+    double run_seconds    = 0.; ///< without those of the second run
   };
 } // namespace Supple
 

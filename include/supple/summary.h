@@ -2,6 +2,7 @@
 #define supple_summary_h
 
 #include <supple/diagnostics.h>
+#include <supple/step_doubling.h>
 
 #include <string>
 #include <vector>
@@ -14,15 +15,16 @@ namespace Supple
     std::string status; ///< done, interrupted or failed: why
     std::vector<std::string> warnings;
     std::string integrator;
-    unsigned int steps    = 0;
-    double setup_seconds  = 0.;
-    double run_seconds    = 0.;
-    double error_estimate = 0.; ///< [m]
-    double largest_motion = 0.; ///< of a vertex from its place at the start [m]
-    unsigned int frames   = 0;
-    bool history          = false;
-    bool probes           = false;
-    bool observed         = false; ///< whether energies were measured
+    unsigned int steps                = 0;
+    double setup_seconds              = 0.;
+    double run_seconds                = 0.;
+    double error_estimate             = 0.;      ///< [m]
+    double largest_motion             = 0.;      ///< of a vertex from its place at the start [m]
+    const StepDoubling *step_doubling = nullptr; ///< if there is a second run
+    unsigned int frames               = 0;
+    bool history                      = false;
+    bool probes                       = false;
+    bool observed                     = false; ///< whether energies were measured
     Measurement last;
     Extremes extremes;
     double distance_from_rest = 0.; ///< of the vertex that is farthest from its place at rest [m]

@@ -1,0 +1,69 @@
+#ifndef supple_parameter_file_h
+#define supple_parameter_file_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace Supple
+{
+  /** "Section/Entry=value", set on top of a parameter file, and who says so. */
+  struct Override
+  {
+    std::string text;
+    std::string place = "--set"; ///< or file:line of a study
+  };
+
+
+  /**
+   * The text of a parameter file, and for each of its entries where it is set. What is wrong is
+   * told with file, line, entry, what was found and what would be right.
+   */
+  class ParameterFile
+  {
+  public:
+    ParameterFile() = default;
+
+    /** @throws InputError if there is no such file, or nothing in it */
+    explicit ParameterFile(const std::string &file);
+
+    /** Its outermost subsections, and at which file:line they begin. */
+    std::map<std::string, std::string>
+    sections() const;
+
+    /**
+     * Gives all entries, and then the overrides, to @p prm, in which they are declared.
+     * @throws InputError
+     */
+    void
+    parse(dealii::ParameterHandler &prm, const std::vector<Override> &overrides);
+
+    /** Where an entry ("Section/Entry") got its value: file:line, "--set", or that it is not set.
+     */
+    std::string
+    place(const std::string &entry) const;
+
+    /** The same, and the value: to begin a message with. */
+    std::string
+    origin(const std::string &entry) const;
+
+    /** The name of the file without folder and ending. */
+    std::string
+    name() const;
+
+    std::string
+    folder() const;
+
+  private:
+    void
+    apply(dealii::ParameterHandler &prm, const Override &override);
+
+    std::string file, text;
+    std::map<std::string, std::string> places; ///< entry -> file:line or who else set it
+    std::map<std::string, std::string> values; ///< entry -> value as text
+  };
+} // namespace Supple
+
+#endif

@@ -1,0 +1,77 @@
+#include <supple/step_doubling.h>
+
+#include <supple/error.h>
+#include <supple/simulation.h>
+
+#include <chrono>
+#include <cmath>
+
+namespace Supple
+{
+  namespace
+  {
+    Parameters
+    finer(const Parameters &scene)
+    {
+      Parameters second          = scene;
+      second.time.estimate_error = false;
+      second.output.history      = false;
+      second.output.frames       = OutputParameters::Frames::none;
+      if (scene.time.has_variable_steps())
+        for (double *tolerance : {&second.time.relative_tolerance,
+                                  &second.time.displacement_tolerance,
+                                  &second.time.velocity_tolerance})
+          *tolerance *= 0.1;
+      else
+        {
+          second.time.step *= 0.5;
+          second.time.n_steps *= 2;
+        }
+      return second;
+    }
+
+
+    double
+    factor_of(const TimeParameters &time)
+    {
+      const double gain = time.has_variable_steps() ? 10. : std::pow(2., time.order());
+      return gain / (gain - 1.);
+    }
+  } // namespace
+
+
+  StepDoubling::StepDoubling(const Parameters &scene, const MPI_Comm communicator)
+    : name(scene.time.has_variable_steps() ? "a tenth of the tolerances" : "half the step")
+    , factor(factor_of(scene.time))
+    , second(std::make_unique<Simulation>(finer(scene), "", true, communicator))
+  {
+  }
+
+
+  StepDoubling::~StepDoubling() = default;
+
+
+  std::optional<double>
+  StepDoubling::follow(const double time, const State &state)
+  {
+    if (!failure.empty())
+      return {};
+    const auto start = std::chrono::steady_clock::now();
+    try
+      {
+        while (second->time() < time * (1. - 1e-12) && !second->finished())
+          second->advance();
+      }
+    catch (const ComputationError &error)
+      {
+        failure = error.what();
+      }
+    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (!failure.empty() || std::abs(second->time() - time) > 1e-9 * time)
+      return {};
+
+    last    = factor * largest_vertex_distance(state.block(0), second->current_state().block(0));
+    largest = std::max(largest, last);
+    return last;
+  }
+} // namespace Supple

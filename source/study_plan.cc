@@ -1,0 +1,300 @@
+#include <supple/study_plan.h>
+
+#include <supple/error.h>
+#include <supple/expression.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace Supple
+{
+  using dealii::Utilities::trim;
+
+  namespace
+  {
+    std::string
+    exact_text(const double value)
+    {
+      std::ostringstream text;
+      text.precision(17);
+      text << value;
+      return text.str();
+    }
+
+
+    /** Parts set apart by a character, outside of brackets. Doubled, it is an operator of
+     * expressions. */
+    std::vector<std::string>
+    split(const std::string &text, const char separator)
+    {
+      std::vector<std::string> parts(1);
+      int depth = 0;
+      for (std::size_t i = 0; i < text.size(); ++i)
+        {
+          depth += (text[i] == '[') - (text[i] == ']');
+          const bool doubled = (i > 0 && text[i - 1] == separator) ||
+                               (i + 1 < text.size() && text[i + 1] == separator);
+          if (text[i] == separator && depth == 0 && !doubled)
+            parts.emplace_back();
+          else
+            parts.back() += text[i];
+        }
+      return parts;
+    }
+
+
+    std::vector<Override>
+    override_list(const std::string &text, const std::string &place)
+    {
+      std::vector<Override> list;
+      for (const std::string &part : split(text, '|'))
+        if (!trim(part).empty())
+          list.push_back({trim(part), place});
+      return list;
+    }
+
+
+    void
+    append(std::vector<Override> &list, const std::vector<Override> &more)
+    {
+      list.insert(list.end(), more.begin(), more.end());
+    }
+
+
+    /** Names of runs are names of folders and rows: each must be there once. */
+    void
+    check_names(const std::vector<PlannedRun> &runs, const std::string &place)
+    {
+      std::set<std::string> names;
+      for (const PlannedRun &run : runs)
+        if (!names.insert(run.folder_name()).second)
+          throw InputError(place + ": '" + run.label() + "' is there twice.");
+    }
+  } // namespace
+
+
+  std::string
+  PlannedRun::label() const
+  {
+    return series.empty() ? name : series + ", " + name;
+  }
+
+
+  std::string
+  PlannedRun::folder_name() const
+  {
+    return std::regex_replace(label(), std::regex("[^A-Za-z0-9.+=-]+"), "_");
+  }
+
+
+  std::vector<StudyItem>
+  study_items(const std::string &text, const std::string &place)
+  {
+    std::vector<StudyItem> items;
+    for (const std::string &part : split(text, ';'))
+      {
+        if (trim(part).empty())
+          continue;
+        std::smatch found;
+        if (!std::regex_match(part,
+                              found,
+                              std::regex("\\s*(([^\\[\\]:]*[^\\[\\]:\\s])\\s*(\\[(.*)\\])?)\\s*"
+                                         "(:\\s*([^\\[\\]]*))?")))
+          throw InputError(place + ": '" + trim(part) +
+                           "' is not of the form name [Section/Entry=value | Section/Entry=value]"
+                           ": more, with or without brackets and more.");
+        items.push_back(
+          {trim(found[1]), trim(found[2]), override_list(found[4], place), trim(found[6])});
+      }
+    if (items.empty())
+      throw InputError(place + ": nothing is there.");
+    return items;
+  }
+
+
+  StudyPlan::StudyPlan(const StudyParameters &study)
+    : kind(!study.methods.empty()  ? Kind::methods
+           : !study.levels.empty() ? Kind::levels
+                                   : Kind::cases)
+    , base([&] {
+      std::vector<Override> overrides = override_list(study.overrides, study.place("Overrides"));
+      append(overrides, study.command_line);
+      return Parameters::read(study.scene_file(), overrides);
+    }())
+    , scene_file(study.scene_file())
+    , common(override_list(study.overrides, study.place("Overrides")))
+  {
+    append(common, study.command_line);
+    switch (kind)
+      {
+        case Kind::methods:
+          plan_methods(study);
+          break;
+        case Kind::levels:
+          plan_levels(study);
+          break;
+        case Kind::cases:
+          plan_cases(study);
+          break;
+      }
+  }
+
+
+  Parameters
+  StudyPlan::parameters(const PlannedRun &run) const
+  {
+    std::vector<Override> overrides = common;
+    append(overrides, run.overrides);
+    return Parameters::read(scene_file, overrides);
+  }
+
+
+  PlannedRun
+  StudyPlan::method_run(const StudyItem &item,
+                        const std::string &word,
+                        const std::string &number,
+                        const std::string &place) const
+  {
+    const double value = Expression(number, 1, place).value(dealii::Point<3>(), 0.);
+    if (!std::isfinite(value) || value <= 0.)
+      throw InputError(place + ": '" + number + "' of " + item.title +
+                       " is not a positive number.");
+
+    PlannedRun run;
+    run.series = run.curve = item.title;
+    std::smatch found;
+    const bool ida = std::regex_match(item.name, found, std::regex("ida order (\\d)"));
+    run.overrides.push_back({"Time/Method=" + (ida ? "ida" : item.name), place});
+    if (ida)
+      run.overrides.push_back({"Time/Maximum order=" + found[1].str(), place});
+    append(run.overrides, item.overrides);
+
+    if (word == "tolerance")
+      {
+        run.name      = "tolerance " + number;
+        run.tolerance = value;
+        if (!ida && item.name != "ida")
+          {
+            run.curve += ", variable steps";
+            run.overrides.push_back({"Time/Variable steps=true", place});
+          }
+        run.overrides.push_back({"Time/Relative tolerance=" + exact_text(value), place});
+        return run;
+      }
+
+    run.name             = "step " + number;
+    run.step             = value;
+    const double end     = base.time.end();
+    const double n_steps = std::max(1., std::round(end / value));
+    if (ida || item.name == "ida")
+      throw InputError(place + ": ida has variable steps; it takes tolerances, not steps.");
+    if (std::abs(n_steps * value - end) > 1e-9 * end || n_steps > 2e9)
+      {
+        std::ostringstream text;
+        text << place << ": the step " << number << " of " << item.title << " does not divide the "
+             << end << " s of the scene; " << end << "/" << n_steps << " does.";
+        throw InputError(text.str());
+      }
+    run.overrides.push_back({"Time/Variable steps=false", place});
+    run.overrides.push_back({"Time/Step=" + exact_text(value), place});
+    run.overrides.push_back({"Time/Steps=" + std::to_string(std::lround(n_steps)), place});
+    return run;
+  }
+
+
+  void
+  StudyPlan::plan_methods(const StudyParameters &study)
+  {
+    if (base.time.problem == TimeParameters::Problem::stationary)
+      throw InputError(study.place("Methods") + ": the scene is static and has no method in time.");
+    const std::string place = study.place("Methods");
+    for (const StudyItem &item : study_items(study.methods, place))
+      {
+        std::smatch found;
+        if (!std::regex_match(item.rest, found, std::regex("(step|tolerance)s?\\s+(.*)")))
+          throw InputError(place + ": '" + item.title +
+                           "' must be followed by ': steps' or ': tolerances' and numbers, such as "
+                           "trbdf2: steps 0.1, 0.1/2.");
+        for (const std::string &number : dealii::Utilities::split_string_list(found[2], ','))
+          runs.push_back(method_run(item, found[1], number, place));
+      }
+    check_names(runs, place);
+    if (!study.reference.empty())
+      plan_method_reference(study);
+  }
+
+
+  void
+  StudyPlan::plan_method_reference(const StudyParameters &study)
+  {
+    const std::string place = study.place("Reference");
+    const auto items        = study_items(study.reference, place);
+    std::smatch found;
+    if (items.size() != 1 ||
+        !std::regex_match(items[0].rest, found, std::regex("(step|tolerance)s?\\s+([^,]*)")))
+      throw InputError(place +
+                       ": it must be one method with one step or tolerance, such as "
+                       "esdirk5: step 1e-4.");
+    const std::string word = found[1], number = found[2];
+    const std::string finer = (word == "step" ? "(" + number + ")/2" : "(" + number + ")/10");
+    references              = {method_run(items[0], word, number, place),
+                               method_run(items[0], word, finer, place)};
+  }
+
+
+  void
+  StudyPlan::plan_levels(const StudyParameters &study)
+  {
+    const auto levels = study_items(study.levels, study.place("Levels"));
+    std::vector<StudyItem> variants(1);
+    if (!study.variants.empty())
+      variants = study_items(study.variants, study.place("Variants"));
+    for (const StudyItem &variant : variants)
+      for (const StudyItem &level : levels)
+        {
+          PlannedRun run;
+          run.series = run.curve = variant.name;
+          run.name               = level.name;
+          run.overrides          = level.overrides;
+          append(run.overrides, variant.overrides);
+          char *end         = nullptr;
+          const double size = std::strtod(level.name.c_str(), &end);
+          if (*end == '\0' && size > 0.)
+            run.cell_size = size;
+          runs.push_back(run);
+        }
+    check_names(runs, study.place("Levels"));
+
+    const std::string place = study.place("Reference");
+    if (!study.reference.empty())
+      for (const StudyItem &item : study_items(study.reference, place))
+        {
+          PlannedRun run;
+          run.name      = item.name;
+          run.overrides = item.overrides;
+          references.push_back(run);
+        }
+    if (references.size() > 2)
+      throw InputError(place + ": one run, or two from coarse to fine; there are " +
+                       std::to_string(references.size()) + ".");
+  }
+
+
+  void
+  StudyPlan::plan_cases(const StudyParameters &study)
+  {
+    for (const StudyItem &item : study_items(study.cases, study.place("Cases")))
+      {
+        PlannedRun run;
+        run.name      = item.name;
+        run.overrides = item.overrides;
+        runs.push_back(run);
+      }
+    check_names(runs, study.place("Cases"));
+  }
+} // namespace Supple
