@@ -15,6 +15,7 @@ namespace Supple
            "    --output DIR                    where results go (default: output/ and the scene's "
            "name)\n"
            "    --quiet                         say nothing but errors\n"
+           "  supple STUDY.prm                  run many variants of a scene and compare them\n"
            "  supple --check SCENE.prm          parse, build the mesh, validate, run nothing\n"
            "  supple --print-parameters [prm|json]\n"
            "                                    every entry with its default, unit, range and "

@@ -49,7 +49,8 @@ namespace Supple
 
   Expression::Expression(const std::string &text,
                          const unsigned int n_components,
-                         const std::string &origin)
+                         const std::string &origin,
+                         const std::map<std::string, double> &names)
     : n_components(n_components)
   {
     const auto components = dealii::Utilities::split_string_list(text, ';');
@@ -63,7 +64,8 @@ namespace Supple
       zero = zero && std::regex_match(component, std::regex("[+-]?0*\\.?0*"));
     time_dependent = std::regex_search(text, std::regex("\\bt\\b"));
 
-    const std::map<std::string, double> constants = {{"pi", dealii::numbers::PI}};
+    std::map<std::string, double> constants = names;
+    constants["pi"]                         = dealii::numbers::PI;
     const SilentErrors silence;
     try
       {

@@ -3,11 +3,14 @@
  *
  *   .prm -> Parameters -> Mesh -> Body -> ImplicitOperator -> TimeIntegrator -> Diagnostics ->
  * Frames, CSV, summary
+ *
+ * and Study -> many of these -> tables and plots of error against run time.
  */
 
 #include <supple/command_line.h>
 #include <supple/error.h>
 #include <supple/simulation.h>
+#include <supple/study.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
@@ -17,6 +20,33 @@
 
 namespace
 {
+  void
+  execute_scene(const Supple::CommandLine &line)
+  {
+    const auto parameters = Supple::Parameters::read(line.scene, line.overrides);
+    const auto folder     = line.output.empty() ? parameters.output_folder() : line.output;
+    Supple::Simulation simulation(parameters, folder, line.quiet, MPI_COMM_WORLD);
+    if (line.action == Supple::CommandLine::Action::run)
+      simulation.run();
+    else
+      simulation.print_description(true);
+  }
+
+
+  void
+  execute_study(const Supple::CommandLine &line)
+  {
+    const auto parameters = Supple::StudyParameters::read(line.scene, line.overrides);
+    const auto folder =
+      line.output.empty() ? Supple::Study::output_folder(parameters) : line.output;
+    Supple::Study study(parameters, folder, line.quiet, MPI_COMM_WORLD);
+    if (line.action == Supple::CommandLine::Action::run)
+      study.run();
+    else
+      study.check();
+  }
+
+
   void
   execute(const Supple::CommandLine &line, const bool root)
   {
@@ -37,15 +67,10 @@ namespace
           return;
         case Action::check:
         case Action::run:
-          {
-            const auto parameters = Supple::Parameters::read(line.scene, line.overrides);
-            const auto folder     = line.output.empty() ? parameters.output_folder() : line.output;
-            Supple::Simulation simulation(parameters, folder, line.quiet, MPI_COMM_WORLD);
-            if (line.action == Action::run)
-              simulation.run();
-            else
-              simulation.print_description(true);
-          }
+          if (Supple::StudyParameters::is_study(line.scene))
+            execute_study(line);
+          else
+            execute_scene(line);
       }
   }
 } // namespace

@@ -1,6 +1,7 @@
 #include <supple/error.h>
 #include <supple/parameter_file.h>
 #include <supple/parameters.h>
+#include <supple/study_parameters.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -231,9 +232,25 @@ namespace Supple
   Parameters::print_reference(std::ostream &out, const std::string &format)
   {
     Parameters parameters;
-    ParameterHandler prm;
-    parameters.declare(prm);
-    prm.print_parameters(out, format == "json" ? ParameterHandler::JSON : ParameterHandler::PRM);
+    StudyParameters study;
+    ParameterHandler scene_entries, study_entries;
+    parameters.declare(scene_entries);
+    study.declare(study_entries);
+    if (format == "json")
+      {
+        study.declare(scene_entries);
+        scene_entries.print_parameters(out, ParameterHandler::JSON);
+        return;
+      }
+    scene_entries.print_parameters(out, ParameterHandler::PRM);
+
+    // What is printed stays a scene.
+    out << "\n# A study is a file of its own, with this subsection alone:\n";
+    std::stringstream text;
+    study_entries.print_parameters(text, ParameterHandler::PRM);
+    std::string line;
+    while (std::getline(text, line))
+      out << (line.empty() ? "" : "# ") << line << '\n';
   }
 
 

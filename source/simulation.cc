@@ -455,17 +455,16 @@ namespace Supple
       std::cout << "; motion " << largest_motion << " m";
     if (implicit_operator.has_mass() && std::isfinite(error_estimate))
       std::cout << ", sum of local errors " << error_estimate << " m";
-    if (frames)
-      std::cout << "; " << frames->n_written() << " frames in " << folder;
-    std::cout << std::endl;
+    std::cout << "; " << (frames ? frames->n_written() : 0) << " frames in " << folder << std::endl;
     if (!step_doubling)
       return;
-    if (step_doubling->failure.empty())
-      std::cout << "error: " << step_doubling->largest << " m beside this motion ("
-                << step_doubling->last << " m at the end), by a second run with "
+    if (step_doubling->failure.empty() && largest_motion > 0.)
+      std::cout << "error: " << step_doubling->largest << " m ("
+                << 100. * step_doubling->largest / largest_motion << " % of the motion), "
+                << step_doubling->last << " m at the end, by a second run with "
                 << step_doubling->name << " in " << readable_duration(step_doubling->seconds)
                 << std::endl;
-    else
+    else if (!step_doubling->failure.empty())
       std::cout << "error: unknown, for the second run failed: " << step_doubling->failure
                 << std::endl;
   }

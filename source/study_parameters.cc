@@ -145,14 +145,14 @@ namespace Supple
                       "== 0 && abs(sag + 0.114) < 0.001. Unit: none. Range: an expression of "
                       "names in Columns, or nothing.",
                       any);
-    prm.add_parameter("Targets",
-                      targets,
-                      "For each of these errors the report says which run reaches it soonest. "
-                      "Unit: none. Range: positive numbers set apart by commas.",
-                      dealii::Patterns::List(Range::between(0,
-                                                            std::numeric_limits<double>::infinity()),
-                                             0,
-                                             dealii::Patterns::List::max_int_value));
+    prm.add_parameter(
+      "Targets",
+      targets,
+      "For each of these errors the report says which run reaches it soonest. "
+      "Unit: none. Range: positive numbers set apart by commas.",
+      dealii::Patterns::List(Range::between(0, std::numeric_limits<double>::infinity()),
+                             0,
+                             dealii::Patterns::List::max_int_value));
   }
 
 
@@ -219,7 +219,8 @@ namespace Supple
       throw InputError(place("Levels") +
                        ": levels need Columns, and a Reference or Exact values of these.");
     if (!cases.empty() && columns.empty())
-      throw InputError(place("Cases") + ": cases need Columns, the numbers that stand in the table.");
+      throw InputError(place("Cases") +
+                       ": cases need Columns, the numbers that stand in the table.");
     if (!cases.empty() && !reference.empty())
       throw InputError(place("Reference") + ": it goes with Methods and Levels.");
   }

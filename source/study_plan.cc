@@ -162,10 +162,11 @@ namespace Supple
   {
     const double value = Expression(number, 1, place).value(dealii::Point<3>(), 0.);
     if (!std::isfinite(value) || value <= 0.)
-      throw InputError(place + ": '" + number + "' of " + item.title + " is not a positive number.");
+      throw InputError(place + ": '" + number + "' of " + item.title +
+                       " is not a positive number.");
 
     PlannedRun run;
-    run.series = item.title;
+    run.series = run.curve = item.title;
     std::smatch found;
     const bool ida = std::regex_match(item.name, found, std::regex("ida order (\\d)"));
     run.overrides.push_back({"Time/Method=" + (ida ? "ida" : item.name), place});
@@ -178,7 +179,10 @@ namespace Supple
         run.name      = "tolerance " + number;
         run.tolerance = value;
         if (!ida && item.name != "ida")
-          run.overrides.push_back({"Time/Variable steps=true", place});
+          {
+            run.curve += ", variable steps";
+            run.overrides.push_back({"Time/Variable steps=true", place});
+          }
         run.overrides.push_back({"Time/Relative tolerance=" + exact_text(value), place});
         return run;
       }
@@ -233,8 +237,9 @@ namespace Supple
     std::smatch found;
     if (items.size() != 1 ||
         !std::regex_match(items[0].rest, found, std::regex("(step|tolerance)s?\\s+([^,]*)")))
-      throw InputError(place + ": it must be one method with one step or tolerance, such as "
-                               "esdirk5: step 1e-4.");
+      throw InputError(place +
+                       ": it must be one method with one step or tolerance, such as "
+                       "esdirk5: step 1e-4.");
     const std::string word = found[1], number = found[2];
     const std::string finer = (word == "step" ? "(" + number + ")/2" : "(" + number + ")/10");
     references              = {method_run(items[0], word, number, place),
@@ -253,9 +258,9 @@ namespace Supple
       for (const StudyItem &level : levels)
         {
           PlannedRun run;
-          run.series    = variant.name;
-          run.name      = level.name;
-          run.overrides = level.overrides;
+          run.series = run.curve = variant.name;
+          run.name               = level.name;
+          run.overrides          = level.overrides;
           append(run.overrides, variant.overrides);
           char *end         = nullptr;
           const double size = std::strtod(level.name.c_str(), &end);

@@ -85,6 +85,7 @@ namespace Supple
 
     json["cells"]    = model.body.mesh.n_cells;
     json["vertices"] = model.body.mesh.n_vertices;
+    json["volume"]   = model.body.mesh.volume;
     json["dofs"]     = model.body.dof_handler.n_dofs();
     json["held"]     = model.constraints.n_held;
     json["ranks"]    = dealii::Utilities::MPI::n_mpi_processes(model.body.mesh.communicator);

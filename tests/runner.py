@@ -17,12 +17,13 @@ ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROO
                    OMPI_MCA_pml="ob1", OMPI_MCA_btl="^tcp,uct,openib,ofi", OPENBLAS_NUM_THREADS="1")
 
 
-def run(*arguments, ranks=1):
-    """Runs supple; gives exit status, standard output and standard error."""
+def run(*arguments, ranks=1, path=None):
+    """Runs supple, perhaps with another PATH; gives exit status, standard output and standard error."""
     command = [SUPPLE, *map(str, arguments)]
     if ranks > 1:
         command = ["mpirun", "--oversubscribe", "-np", str(ranks), *command]
-    done = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, errors="replace", timeout=250,
+    environment = ENVIRONMENT if path is None else dict(ENVIRONMENT, PATH=path)
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, errors="replace", timeout=250,
                           stdin=subprocess.DEVNULL)
     return done.returncode, done.stdout, done.stderr
 

@@ -3,6 +3,7 @@
 
 #include <deal.II/base/function_parser.h>
 
+#include <map>
 #include <memory>
 #include <string>
 
@@ -19,9 +20,13 @@ namespace Supple
      * @param text         what the user wrote
      * @param n_components 1 or 3
      * @param origin       where it was written, for the message
+     * @param names        more numbers that may be used
      * @throws InputError
      */
-    Expression(const std::string &text, unsigned int n_components, const std::string &origin);
+    Expression(const std::string &text,
+               unsigned int n_components,
+               const std::string &origin,
+               const std::map<std::string, double> &names = {});
 
     double
     value(const dealii::Point<3> &point, double time, unsigned int component = 0) const;

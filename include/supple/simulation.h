@@ -70,6 +70,13 @@ namespace Supple
       return state;
     }
 
+    /** The names of the columns of probes.csv. */
+    std::vector<std::string>
+    probe_columns() const
+    {
+      return probes.column_names();
+    }
+
     /** What stands in summary.json after the run; before that, nothing. */
     const std::string &
     summary() const

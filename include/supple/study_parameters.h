@@ -29,8 +29,8 @@ namespace Supple
     std::vector<double> targets = {0.1, 0.01, 0.001};
     bool histories              = true;
 
-    std::string name;                         ///< of the file, without folder and ending
-    std::vector<Override> command_line;       ///< what is set in all runs beside the overrides
+    std::string name;                   ///< of the file, without folder and ending
+    std::vector<Override> command_line; ///< what is set in all runs beside the overrides
 
     /** Whether a file is a study and not a scene: it has a subsection Study. @throws InputError */
     static bool

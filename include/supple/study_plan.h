@@ -13,6 +13,7 @@ namespace Supple
   struct PlannedRun
   {
     std::string series; ///< method or variant, as written; may be empty
+    std::string curve;  ///< runs of the same curve differ in step, tolerance or mesh alone
     std::string name;   ///< "step 0.07", level or case, as written
     std::vector<Override> overrides;
     double step      = 0.; ///< of a method with fixed steps [s]
