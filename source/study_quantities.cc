@@ -395,9 +395,11 @@ namespace Supple
     std::map<std::string, double> constants;
     for (std::size_t i = 0; i < values.size(); ++i)
       {
-        if (!std::isfinite(values[i]))
+        const std::string &name = all_values[i].name;
+        if (!std::isfinite(values[i]) &&
+            std::regex_search(condition, std::regex("\\b" + name + "\\b")))
           return false;
-        constants[all_values[i].name] = values[i];
+        constants[name] = values[i];
       }
     return Expression(condition, 1, condition_place, constants).value(dealii::Point<3>(), 0.) != 0.;
   }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Supple
 {
@@ -18,6 +19,21 @@ namespace Supple
     {
       return text.size() >= end.size() &&
              text.compare(text.size() - end.size(), end.size(), end) == 0;
+    }
+
+
+    /** What is not finite stands as null in the summary. */
+    double
+    number(const nlohmann::json &json)
+    {
+      return json.is_number() ? json.get<double>() : std::numeric_limits<double>::quiet_NaN();
+    }
+
+
+    double
+    run_seconds(const nlohmann::json &summary, const MPI_Comm communicator)
+    {
+      return dealii::Utilities::MPI::max(number(summary["seconds"]["run"]), communicator);
     }
   } // namespace
 
@@ -124,9 +140,8 @@ namespace Supple
     record.rejected     = summary["rejected_steps"];
     record.failed       = summary["failed_steps"];
     if (summary.contains("error_estimate"))
-      record.largest_motion = summary["error_estimate"]["largest_motion"];
-    record.seconds =
-      dealii::Utilities::MPI::max(summary["seconds"]["run"].get<double>(), communicator);
+      record.largest_motion = number(summary["error_estimate"]["largest_motion"]);
+    record.seconds = run_seconds(summary, communicator);
     return record;
   }
 
@@ -140,8 +155,7 @@ namespace Supple
         Simulation simulation(parameters, "", true, communicator);
         simulation.run();
         const auto summary = nlohmann::json::parse(simulation.summary());
-        seconds.push_back(
-          dealii::Utilities::MPI::max(summary["seconds"]["run"].get<double>(), communicator));
+        seconds.push_back(run_seconds(summary, communicator));
       }
     std::sort(seconds.begin(), seconds.end());
     const std::size_t middle = seconds.size() / 2;

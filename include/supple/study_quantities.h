@@ -44,7 +44,8 @@ namespace Supple
     std::vector<double>
     values(const StudyRecord &run) const;
 
-    /** Whether a run is right, if there is a condition for that. */
+    /** Whether a run is right, if there is a condition for that; it is not where a number that the
+     * condition speaks of is none. */
     bool
     is_right(const std::vector<double> &values) const;
 
