@@ -31,6 +31,20 @@ namespace Supple
     }
 
 
+    /** Names the subsection in which an entry is unknown: deal.II only says that it is the current
+     * one. */
+    std::string
+    with_section(const std::string &message, const std::map<std::string, std::string> &places)
+    {
+      for (const auto &[entry, place] : places)
+        if (message.rfind(place + ": ", 0) == 0)
+          return std::regex_replace(message,
+                                    std::regex("No entry with name <.*> was declared in .*"),
+                                    "there is no entry " + entry + ".");
+      return message;
+    }
+
+
     /** The file:line of entries and of the outermost subsections. */
     struct Lines
     {
@@ -152,7 +166,7 @@ namespace Supple
       }
     catch (const dealii::ExceptionBase &exception)
       {
-        throw InputError(plain_message(exception));
+        throw InputError(with_section(plain_message(exception), places));
       }
     for (const Override &override : overrides)
       apply(prm, override);
