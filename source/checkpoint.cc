@@ -153,8 +153,8 @@ namespace Supple
       {
         std::string content;
         Json::to_cbor(all, content);
-        if (std::filesystem::exists(file))
-          std::filesystem::rename(file, previous_file);
+        std::error_code nothing_to_keep; // write_whole_file() speaks of a folder that is gone
+        std::filesystem::rename(file, previous_file, nothing_to_keep);
         write_whole_file(file, head + checksum(content) + content);
       }
     last_step = step;

@@ -87,6 +87,9 @@ namespace Supple
           throw WriteError(file + " can't be written; is the disk full?");
         }
     }
-    std::filesystem::rename(aside, file);
+    std::error_code problem;
+    std::filesystem::rename(aside, file, problem);
+    if (problem)
+      throw WriteError(file + " can't be written (" + problem.message() + ").");
   }
 } // namespace Supple
