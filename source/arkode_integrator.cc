@@ -145,6 +145,9 @@ namespace Supple
     ARKStepSetUserData(memory, this);
     ARKStepSetMaxNumSteps(memory, -1);
     ARKStepSetMaxHnilWarns(memory, -1);
+
+    // Nothing is asked for between steps; the default would compute the rates at the end of each.
+    ARKStepSetInterpolantType(memory, ARK_INTERP_LAGRANGE);
   }
 
 

@@ -16,12 +16,15 @@ namespace Supple
   {
     using NodeVector = std::vector<NodeValues<3>>;
 
-    // By how much single precision reduces a residual before it is computed anew in double: an
-    // eighth of its digits would be lost at a thousandth (measured on the bar).
-    constexpr double single_precision_reduction = 1e-2;
+    // By how much single precision makes a residual smaller before it is computed anew in double
+    // precision: for well conditioned matrices, and at the least.
+    constexpr double largest_reduction = 1e-3, smallest_reduction = 0.1;
+
+    // It does not come forward if it needs more iterations for that.
+    constexpr unsigned int single_precision_iterations = 100;
 
     // What the coarse levels cost to compute, in iterations, measured on the bar.
-    constexpr double refresh_cost = 7.;
+    const double refresh_cost = getenv("RC")?atof(getenv("RC")):7.;
 
 
     /**
@@ -128,7 +131,7 @@ namespace Supple
         : LinearSolver(A, parameters, effort)
         , multigrid(A.matrix(), A.body.partitioner)
         , n_owned(A.body.n_owned)
-        , x_single(A.body.n_local)
+        , correction(A.body.n_local)
         , r(A.body.n_local)
         , z(A.body.n_local)
         , p(A.body.n_local)
@@ -191,21 +194,23 @@ namespace Supple
         const double size = b.l2_norm(), goal = parameters.tolerance * size;
         double norm               = size;
         unsigned int n_iterations = 0;
-        last_rho                  = 0.;
+        last_curvature            = 0.;
         x                         = 0.;
         residual                  = b;
-        while (norm > goal && single_precision)
+        while (norm > goal && reduction <= smallest_reduction)
           {
-            const double reduction =
-              std::max(single_precision_reduction, std::min(0.9 * goal / norm, 0.5));
-            n_iterations += reduce(residual, size, reduction, n_iterations);
-            for (std::size_t node = 0; node < n_owned; ++node)
-              for (unsigned int i = 0; i < 3; ++i)
-                x.local_element(3 * node + i) +=
-                  size * multigrid.scale() * double(x_single[node].lanes[i]);
             const double before = norm;
-            norm                = set_residual(residual, x, b);
-            single_precision    = norm <= std::max(goal, std::sqrt(reduction) * before);
+            const double aim    = std::max(reduction * norm, std::min(0.9 * goal, 0.5 * norm));
+            n_iterations += reduce(residual, size, aim / norm);
+            add_correction(x, size);
+            norm = set_residual(residual, x, b);
+            if (norm > std::max(goal, 2. * aim))
+              reduction *= norm < before / 3. ? 10. : 1e9;
+            if (norm > before)
+              {
+                add_correction(x, -size);
+                norm = set_residual(residual, x, b);
+              }
           }
         if (norm > goal)
           n_iterations += solve_in_double_precision(x, b, residual);
@@ -213,47 +218,66 @@ namespace Supple
         return n_iterations;
       }
 
+      void
+      add_correction(Vector &x, const double size) const
+      {
+        const double unit = size * multigrid.scale();
+        for (std::size_t node = 0; node < n_owned; ++node)
+          for (unsigned int i = 0; i < 3; ++i)
+            x.local_element(3 * node + i) += unit * double(correction[node].lanes[i]);
+      }
+
       /**
-       * Makes a residual smaller by a factor.
-       * @param size its unit
+       * Finds a correction in single precision that makes the residual smaller by a factor, if it
+       * can.
+       * @param size unit of the residual
        * @return the number of iterations
        */
       unsigned int
-      reduce(const Vector &residual,
-             const double size,
-             const double reduction,
-             const unsigned int n_before)
+      reduce(const Vector &residual, const double size, const double factor)
       {
         for (std::size_t node = 0; node < n_owned; ++node)
           {
             for (unsigned int i = 0; i < 3; ++i)
               r[node].lanes[i] = residual.local_element(3 * node + i) / size;
-            x_single[node].lanes = Lanes<float, 3>{};
+            correction[node].lanes = Lanes<float, 3>{};
           }
-        const double goal_square = reduction * reduction * sum(product(r, r, n_owned));
+        const double goal_square = factor * factor * sum(product(r, r, n_owned));
         for (unsigned int n = 1;; ++n)
           {
             multigrid.apply(z.data(), r.data());
             const double rho = sum(product(r, z, n_owned));
-            const float beta = last_rho > 0. ? rho / last_rho : 0.;
-            for (std::size_t node = 0; node < n_owned; ++node)
-              p[node].lanes = z[node].lanes + beta * p[node].lanes;
+            // The residual that has just been computed anew is not what the recurrence had: then
+            // the direction is made conjugate to the last one by definition.
+            double beta = 0.;
+            if (n > 1)
+              beta = rho / last_rho;
+            else if (last_curvature > 0.)
+              beta = -sum(product(z, q, n_owned)) / last_curvature;
+            add_direction(beta);
             last_rho = rho;
 
             multigrid.halo.update(p.data());
             multigrid.vmult(q.data(), p.data());
-            const float alpha = rho / sum(product(p, q, n_owned));
+            last_curvature    = sum(product(p, q, n_owned));
+            const float alpha = (n > 1 ? rho : sum(product(p, r, n_owned))) / last_curvature;
             for (std::size_t node = 0; node < n_owned; ++node)
               {
-                x_single[node].lanes += alpha * p[node].lanes;
+                correction[node].lanes += alpha * p[node].lanes;
                 r[node].lanes -= alpha * q[node].lanes;
               }
             const double square = sum(product(r, r, n_owned));
-            if (!(square > goal_square)) // done, or not a number
+            if (!(square > goal_square) || n == single_precision_iterations)
               return n;
-            if (n_before + n >= parameters.iteration_limit)
-              fail(n_before + n, std::sqrt(square));
           }
+      }
+
+      /** p = z + beta p */
+      void
+      add_direction(const float beta)
+      {
+        for (std::size_t node = 0; node < n_owned; ++node)
+          p[node].lanes = z[node].lanes + beta * p[node].lanes;
       }
 
       double
@@ -275,30 +299,25 @@ namespace Supple
           }
         catch (const SolverControl::NoConvergence &)
           {
-            fail(control.last_step(), control.last_value() / size);
+            std::ostringstream text;
+            text << "conjugate gradients (" << name() << ") did not reach the relative residual "
+                 << parameters.tolerance << " in " << control.last_step()
+                 << " iterations; they got to " << control.last_value() / size;
+            throw ComputationError(text.str());
           }
         set_residual(residual, x, b);
         return control.last_step();
       }
 
-      [[noreturn]] void
-      fail(const unsigned int n_iterations, const double reached) const
-      {
-        std::ostringstream text;
-        text << "conjugate gradients (" << name() << ") did not reach the relative residual "
-             << parameters.tolerance << " in " << n_iterations << " iterations; they got to "
-             << reached;
-        throw ComputationError(text.str());
-      }
-
       Multigrid multigrid;
       RefreshRule rule;
       bool built            = false;
-      bool single_precision = true; ///< until it is not enough
+      double reduction = largest_reduction; ///< until it turns out to be too much
       const std::size_t n_owned;
       std::vector<double> rigid_motions;
-      NodeVector x_single, r, z, p, q;
-      double last_rho = 0.;
+      NodeVector correction, r, z, p, q;
+      double last_rho       = 0.; ///< r.z of the last iteration
+      double last_curvature = 0.; ///< p.q of the last iteration
       GrowingVectorMemory<Vector> memory;
     };
   } // namespace

@@ -139,7 +139,7 @@ namespace Supple
       }
     const Eigen::LLT<Eigen::MatrixXd> factorization(full); // of the lower half
     require_positive(factorization.info() == Eigen::Success, halo);
-    level.inverse = factorization.solve(Eigen::MatrixXd::Identity(n, n)).cast<float>();
+    level.inverse = factorization.solve(Eigen::MatrixXd::Identity(n, n));
     level.right_hand_side.resize(n);
     level.solution.resize(n);
   }
