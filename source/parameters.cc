@@ -495,6 +495,13 @@ namespace Supple
   }
 
 
+  double
+  TimeParameters::derivative_interval() const
+  {
+    return 1e-4 * step;
+  }
+
+
   void
   TimeParameters::check(const Parameters &parameters) const
   {

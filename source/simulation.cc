@@ -183,8 +183,13 @@ namespace Supple
     if (constraints.move())
       {
         constraints.set_displacement(state.block(0), 0.);
-        if (!all_finite(state.block(0)))
-          throw InputError("A displacement of subsection Motion is not a finite number at time 0.");
+        if (!stationary)
+          constraints.set_velocity(state.block(1), 0., parameters.time.derivative_interval());
+        for (unsigned int b = 0; b < state.n_blocks(); ++b)
+          if (!all_finite(state.block(b)))
+            throw InputError(std::string("A displacement of subsection Motion ") +
+                             (b == 0 ? "is not a finite number" : "has no finite derivative") +
+                             " at time 0.");
       }
   }
 
