@@ -93,7 +93,9 @@ namespace Supple
     if (adaptive)
       {
         ARKStepSetInitStep(memory, settings.step);
+        ARKStepSetMinStep(memory, shortest_step());
         ARKStepSetMaxStep(memory, settings.longest_step);
+        ARKStepSetMaxFirstGrowth(memory, 10.); // not 10000: the first step was not a guess
       }
     else
       set_step_size(settings.step);
@@ -232,6 +234,15 @@ namespace Supple
   {
     context.message.clear();
     const int status = ARKStepEvolve(memory, 2. * end, unknowns, &ode_time, ARK_ONE_STEP);
+    if (adaptive)
+      {
+        long tried = 0, taken = 0;
+        ARKStepGetNumStepAttempts(memory, &tried);
+        ARKStepGetNumSteps(memory, &taken);
+        model.effort.rejected_steps = tried - taken;
+      }
+    if (status >= 0)
+      failure.forget(); // what failed on the way was mended by a smaller step
     return status >= 0;
   }
 

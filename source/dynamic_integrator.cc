@@ -65,6 +65,13 @@ namespace Supple
   }
 
 
+  double
+  DynamicIntegrator::shortest_step() const
+  {
+    return 1e-12 * end;
+  }
+
+
   void
   DynamicIntegrator::throw_what_failed()
   {

@@ -54,6 +54,7 @@ namespace Supple
     IDASetMaxNumSteps(memory, -1);
     IDASetStopTime(memory, end);
     IDASetInitStep(memory, settings.step);
+    IDASetMinStep(memory, shortest_step());
     if (settings.longest_step > 0.)
       IDASetMaxStep(memory, settings.longest_step);
   }
@@ -113,6 +114,16 @@ namespace Supple
   }
 
 
+  void
+  IdaIntegrator::count_rejected_steps() const
+  {
+    long inaccurate = 0, unsolved = 0;
+    IDAGetNumErrTestFails(memory, &inaccurate);
+    IDAGetNumStepSolveFails(memory, &unsolved);
+    model.effort.rejected_steps = inaccurate + unsolved;
+  }
+
+
   StepReport
   IdaIntegrator::take_step(State &state)
   {
@@ -120,9 +131,11 @@ namespace Supple
       start(state);
     context.message.clear();
     StepReport report;
-    if (IDASolve(memory, end, &report.time, unknowns, rates, IDA_ONE_STEP) < 0)
+    const int status = IDASolve(memory, end, &report.time, unknowns, rates, IDA_ONE_STEP);
+    count_rejected_steps();
+    if (status < 0)
       throw_what_failed();
-    failure.forget();
+    failure.forget(); // what failed on the way was mended by a smaller step
     equation.set_state(state, report.time, unknowns.data());
 
     IDAGetEstLocalErrors(memory, error);

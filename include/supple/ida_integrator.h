@@ -37,6 +37,9 @@ namespace Supple
     void
     start(const State &state);
 
+    void
+    count_rejected_steps() const;
+
     Sundials::StateVector rates, error;
     std::vector<double> work_space;
     void *memory           = nullptr;
