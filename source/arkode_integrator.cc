@@ -140,9 +140,23 @@ namespace Supple
     const int status               = settings.is_explicit()
                                        ? ARKStepSetTables(memory, order, table->p, nullptr, table)
                                        : ARKStepSetTables(memory, order, table->p, table, nullptr);
+    if (settings.is_explicit())
+      stable = find_stable_step(model.implicit_operator, table, end);
     ARKodeButcherTable_Free(table);
     if (status != 0)
       throw_what_failed();
+    check_stability();
+  }
+
+
+  void
+  ArkodeIntegrator::check_stability() const
+  {
+    if (adaptive || !stable || settings.step <= stable->step)
+      return;
+    throw InputError(model.parameters.origin("Time/Step") + ": " + settings.method_name() +
+                     " is stable up to a step of " + stable->description() +
+                     ". Take a shorter step, variable steps or an implicit method.");
   }
 
 

@@ -511,6 +511,8 @@ namespace Supple
       throw InputError(parameters.origin("Time/Variable steps") + ": " + method_name() +
                        " has no error estimate to choose steps by. Take ida with Maximum order = 1 "
                        "(backward Euler with variable steps), trbdf2 or esdirk4.");
+    if (method == Method::ida && maximum_order > 5)
+      throw InputError(parameters.origin("Time/Maximum order") + ": it can be 5 at most.");
     if (is_explicit() && !parameters.material.lumped && parameters.material.vertex_mass == 0.)
       throw InputError(
         parameters.origin("Time/Method") +

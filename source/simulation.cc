@@ -132,7 +132,27 @@ namespace Supple
              << poisson << ".";
         list.push_back(text.str());
       }
+    if (!stationary && parameters.time.method == TimeParameters::Method::ida &&
+        parameters.time.maximum_order > 2)
+      list.push_back(
+        "Backward differentiation of an order above 2 (Time/Maximum order) is not "
+        "stable for oscillations that hardly decay: these may grow without bounds.");
+    if (!energy_from_nowhere().empty())
+      list.push_back(energy_from_nowhere());
     return list;
+  }
+
+
+  std::string
+  Simulation::energy_from_nowhere() const
+  {
+    if (-now.dissipated <= 0.2 * largest_energy || body.rotation == RotationMethod::gram_schmidt)
+      return "";
+    std::ostringstream text;
+    text << "The time stepping added " << -now.dissipated << " J to a motion of at most "
+         << largest_energy
+         << " J: it is not to be trusted. Take shorter steps, variable steps or another method.";
+    return text.str();
   }
 
 
@@ -226,6 +246,8 @@ namespace Supple
            (n_ranks == 1 ? "1 process" : std::to_string(n_ranks) + " processes"));
     line("model", rotations[static_cast<unsigned int>(body.rotation)]);
     line("time", time.str());
+    if (const auto stable = integrator->stable_step())
+      line("stable step", "up to " + stable->description());
     line("solver", solver->name() + " (" + solver->reason + ")");
     for (const std::string &text : probes.descriptions())
       line("probe", text);
@@ -351,6 +373,7 @@ namespace Supple
       const PhaseTimer timer(effort, Phase::diagnostics);
       now =
         diagnostics.measure(step, now.time, seconds_since_start() - setup_seconds, state, report);
+      largest_energy = std::max(largest_energy, now.kinetic + now.elastic);
     }
     const PhaseTimer timer(effort, Phase::output);
     if (history)
@@ -380,6 +403,7 @@ namespace Supple
     summary.status         = status;
     summary.warnings       = warnings();
     summary.integrator     = integrator->name();
+    summary.stable_step    = integrator->stable_step();
     summary.steps          = step;
     summary.setup_seconds  = setup_seconds;
     summary.run_seconds    = seconds_since_start() - setup_seconds;
@@ -401,6 +425,8 @@ namespace Supple
           std::cout << "; sum of local errors " << error_estimate << " m beside a motion of "
                     << largest_motion << " m";
         std::cout << "; " << summary.frames << " frames in " << folder << std::endl;
+        if (!energy_from_nowhere().empty())
+          line("warning", energy_from_nowhere());
       }
   }
 } // namespace Supple

@@ -26,6 +26,12 @@ namespace Supple
     std::string
     name() const override;
 
+    std::optional<StableStep>
+    stable_step() const override
+    {
+      return stable;
+    }
+
   private:
     StepReport
     take_step(State &state) override;
@@ -33,8 +39,12 @@ namespace Supple
     void
     create_memory();
 
+    /** @throws InputError if a fixed step of an explicit method is too long */
     void
     set_table();
+
+    void
+    check_stability() const;
 
     void
     set_linear_systems();
@@ -76,6 +86,7 @@ namespace Supple
     double last_size       = 0.; ///< of the last fixed step that succeeded [s]
     unsigned int grid      = 0;  ///< multiples of the step that are reached
     long newton_iterations = 0;
+    std::optional<StableStep> stable; ///< of an explicit method
   };
 } // namespace Supple
 
