@@ -101,7 +101,7 @@ namespace Supple
               const double step,
               const double duration)
     {
-      const double growth = std::pow(2., step / duration);
+      const double growth = std::pow(2., std::min(step / duration, 0.01));
       return std::all_of(rates.begin(), rates.end(), [&](const std::complex<double> &lambda) {
         return std::abs(stability_function(table, step * lambda)) <= growth;
       });

@@ -50,8 +50,8 @@ namespace Supple
    * largest_frequency(),
    *
    * with the damping of the scene (c/m being that of the lightest vertex or of the heaviest) grows
-   * to more than twice its size until the end. Damping by stiffness shortens the step; other
-   * damping may make it longer.
+   * to more than twice its size until the end, or in a hundred steps if there are fewer. Damping by
+   * stiffness shortens the step; other damping may make it longer.
    */
   StableStep
   find_stable_step(const ImplicitOperator &A, const ARKodeButcherTable &table, double duration);
