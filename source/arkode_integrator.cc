@@ -92,7 +92,9 @@ namespace Supple
       set_linear_systems();
     if (adaptive)
       {
+        ARKStepSetMinStep(memory, shortest_step());
         ARKStepSetMaxStep(memory, settings.longest_step);
+        ARKStepSetMaxFirstGrowth(memory, 10.); // not 10000: the first step was not a guess
       }
     else
       set_step_size(settings.step);
@@ -159,9 +161,23 @@ namespace Supple
     const int status               = settings.is_explicit()
                                        ? ARKStepSetTables(memory, order, table->p, nullptr, table)
                                        : ARKStepSetTables(memory, order, table->p, table, nullptr);
+    if (settings.is_explicit())
+      stable = find_stable_step(model.implicit_operator, table, end);
     ARKodeButcherTable_Free(table);
     if (status != 0)
       throw_what_failed();
+    check_stability();
+  }
+
+
+  void
+  ArkodeIntegrator::check_stability() const
+  {
+    if (adaptive || !stable || settings.step <= stable->step)
+      return;
+    throw InputError(model.parameters.origin("Time/Step") + ": " + settings.method_name() +
+                     " is stable up to a step of " + stable->description() +
+                     ". Take a shorter step, variable steps or an implicit method.");
   }
 
 
@@ -269,6 +285,15 @@ namespace Supple
   {
     context.message.clear();
     const int status = ARKStepEvolve(memory, 2. * end, unknowns, &ode_time, ARK_ONE_STEP);
+    if (adaptive)
+      {
+        long tried = 0, taken = 0;
+        ARKStepGetNumStepAttempts(memory, &tried);
+        ARKStepGetNumSteps(memory, &taken);
+        model.effort.rejected_steps = tried - taken;
+      }
+    if (status >= 0)
+      failure.forget(); // what failed on the way was mended by a smaller step
     return status >= 0;
   }
 

@@ -163,6 +163,22 @@ namespace Supple
 
 
   void
+  Constraints::set_velocity(Vector &velocity, const double time, const double interval) const
+  {
+    const std::array<double, 5> weights = {{-25. / 12., 4., -3., 4. / 3., -1. / 4.}};
+    set_zero(velocity);
+    for (const Motion &motion : motions)
+      for (const unsigned int node : motion.nodes)
+        {
+          double sum = 0.;
+          for (unsigned int k = 0; k < weights.size(); ++k)
+            sum += weights[k] * motion.displacement.value(body.position(node), time + k * interval);
+          velocity.local_element(3 * node + motion.direction) = sum / interval;
+        }
+  }
+
+
+  void
   Constraints::copy_held(Vector &to, const Vector &from) const
   {
     for (const unsigned int dof : held_owned)

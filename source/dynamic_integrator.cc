@@ -67,6 +67,13 @@ namespace Supple
   }
 
 
+  double
+  DynamicIntegrator::shortest_step() const
+  {
+    return 1e-12 * end;
+  }
+
+
   void
   DynamicIntegrator::throw_what_failed()
   {
@@ -173,7 +180,8 @@ namespace Supple
    * With the change d of a quantity over the step, backward Euler with the rotations of the step
    * gives d(kinetic) + 1/2 dv.M dv + (f_int(u1) + D v1).du = f1.du, and all but the first term on
    * the left is what the step expended. For the other methods work is what the mean of the forces
-   * at both ends did, and what is missing in the balance then is dissipated.
+   * at both ends did, and the inertia of moved vertices at their mean velocity; what is missing in
+   * the balance then is dissipated.
    */
   void
   DynamicIntegrator::observe(const State &state, StepReport &report)
@@ -203,8 +211,11 @@ namespace Supple
     add_work(1. - start_weight);
     if (model.constraints.move())
       {
+        // Moved vertices may change their velocity at once: then its mean counts.
         set_reactions(inertia);
-        report.load_work += (reactions() * du) / report.dt;
+        report.load_work += backward_euler
+                              ? (reactions() * du) / report.dt
+                              : reactions() * previous.block(1) + 0.5 * (reactions() * dv);
       }
 
     if (backward_euler)

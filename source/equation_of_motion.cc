@@ -73,9 +73,8 @@ namespace Supple
     start_displacement = state.block(0);
     if (model.constraints.move())
       {
-        start_velocity = state.block(1);
-        if (held_velocity == HeldVelocity::difference)
-          prescribed_time = -1.; // the same time has another velocity in another step
+        start_velocity  = state.block(1);
+        prescribed_time = -1.; // the same time may have another velocity in another step
       }
   }
 
@@ -138,37 +137,20 @@ namespace Supple
   void
   EquationOfMotion::set_held_velocity(Vector &held, const double time)
   {
-    const Constraints &constraints = model.constraints;
-    if (held_velocity == HeldVelocity::difference)
+    if (held_velocity == HeldVelocity::derivative)
       {
-        if (time <= step_start)
-          held = start_velocity;
-        else
-          {
-            held = prescribed_displacement;
-            held -= start_displacement;
-            held *= 1. / (time - step_start);
-          }
-        return;
+        // Of what lies within the step: a motion may have kinks where steps meet.
+        const double interval = model.parameters.time.derivative_interval();
+        const bool at_start   = time - step_start < 4. * interval;
+        model.constraints.set_velocity(held, time, at_start ? interval : -interval);
       }
-
-    // A difference over so short a time that only round-off is worse; not before the start.
-    const double delta = 1e-5 * model.parameters.time.step;
-    constraints.set_displacement(held, time + delta);
-    if (time >= delta)
+    else if (time <= step_start)
+      held = start_velocity;
+    else
       {
-        constraints.set_displacement(scratch, time - delta);
-        held -= scratch;
-        held *= 0.5 / delta;
-      }
-    else // of second order, too
-      {
-        held *= 4.;
-        constraints.set_displacement(scratch, time);
-        held.add(-3., scratch);
-        constraints.set_displacement(scratch, time + 2. * delta);
-        held -= scratch;
-        held *= 0.5 / delta;
+        held = prescribed_displacement;
+        held -= start_displacement;
+        held *= 1. / (time - step_start);
       }
   }
 

@@ -71,6 +71,7 @@ namespace Supple
     IDASVtolerances(memory, set_tolerances(), absolute_tolerances);
     IDASetMaxOrd(memory, settings.maximum_order);
     IDASetMaxNumSteps(memory, -1);
+    IDASetMinStep(memory, shortest_step());
     if (settings.longest_step > 0.)
       IDASetMaxStep(memory, settings.longest_step);
   }
@@ -154,7 +155,7 @@ namespace Supple
     count_rejections();
     if (status < 0)
       throw_what_failed();
-    failure.forget();
+    failure.forget(); // what failed on the way was mended by a smaller step
     equation.set_state(state, report.time, unknowns.data());
 
     IDAGetEstLocalErrors(memory, error);

@@ -24,7 +24,7 @@ namespace Supple
     constexpr unsigned int single_precision_iterations = 100;
 
     // What the coarse levels cost to compute, in iterations, measured on the bar.
-    const double refresh_cost = getenv("RC")?atof(getenv("RC")):7.;
+    constexpr double refresh_cost = 12.;
 
 
     /**
@@ -311,7 +311,7 @@ namespace Supple
 
       Multigrid multigrid;
       RefreshRule rule;
-      bool built            = false;
+      bool built       = false;
       double reduction = largest_reduction; ///< until it turns out to be too much
       const std::size_t n_owned;
       std::vector<double> rigid_motions;

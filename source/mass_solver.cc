@@ -44,8 +44,7 @@ namespace Supple
 
   MassSolver::MassSolver(const ImplicitOperator &A)
     : A(A)
-    , small(Utilities::MPI::n_mpi_processes(A.body.mesh.communicator) == 1 &&
-            A.body.n_owned < 1500)
+    , small(Utilities::MPI::n_mpi_processes(A.body.mesh.communicator) == 1 && A.body.n_owned < 1500)
     , same_everywhere(true)
   {
     A.body.initialize(residual);

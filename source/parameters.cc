@@ -354,6 +354,13 @@ namespace Supple
   }
 
 
+  double
+  TimeParameters::derivative_interval() const
+  {
+    return 1e-4 * step;
+  }
+
+
   void
   TimeParameters::check(const Parameters &parameters) const
   {
@@ -367,6 +374,9 @@ namespace Supple
       throw InputError(
         parameters.origin("Time/Energy guard") +
         ": only fixed steps can be done again. Take warn, or Variable steps = false.");
+
+    if (method == Method::ida && maximum_order > 5)
+      throw InputError(parameters.origin("Time/Maximum order") + ": it can be 5 at most.");
     if (is_explicit() && !parameters.material.lumped && parameters.material.vertex_mass == 0.)
       throw InputError(
         parameters.origin("Time/Method") +

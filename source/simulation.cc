@@ -159,7 +159,27 @@ namespace Supple
              << ".";
         list.push_back(text.str());
       }
+    if (!stationary && parameters.time.method == TimeParameters::Method::ida &&
+        parameters.time.maximum_order > 2)
+      list.push_back(
+        "Backward differentiation of an order above 2 (Time/Maximum order) is not "
+        "stable for oscillations that hardly decay: these may grow without bounds.");
+    if (!energy_from_nowhere().empty())
+      list.push_back(energy_from_nowhere());
     return list;
+  }
+
+
+  std::string
+  Simulation::energy_from_nowhere() const
+  {
+    if (-now.dissipated <= 0.2 * largest_energy || body.rotation == RotationMethod::gram_schmidt)
+      return "";
+    std::ostringstream text;
+    text << "The time stepping added " << -now.dissipated << " J to a motion of at most "
+         << largest_energy
+         << " J: it is not to be trusted. Take shorter steps, variable steps or another method.";
+    return text.str();
   }
 
 
@@ -210,8 +230,13 @@ namespace Supple
     if (constraints.move())
       {
         constraints.set_displacement(state.block(0), 0.);
-        if (!all_finite(state.block(0)))
-          throw InputError("A displacement of subsection Motion is not a finite number at time 0.");
+        if (!stationary)
+          constraints.set_velocity(state.block(1), 0., parameters.time.derivative_interval());
+        for (unsigned int b = 0; b < state.n_blocks(); ++b)
+          if (!all_finite(state.block(b)))
+            throw InputError(std::string("A displacement of subsection Motion ") +
+                             (b == 0 ? "is not a finite number" : "has no finite derivative") +
+                             " at time 0.");
       }
   }
 
@@ -267,6 +292,8 @@ namespace Supple
            " are held; " + (n_ranks == 1 ? "1 process" : std::to_string(n_ranks) + " processes"));
     line("model", section_in_words() + rotations[static_cast<unsigned int>(body.rotation)]);
     line("time", time.str());
+    if (const auto stable = integrator->stable_step())
+      line("stable step", "up to " + stable->description());
     line("solver", solver->name() + " (" + solver->reason + ")");
     for (const std::string &text : probes.descriptions())
       line("probe", text);
@@ -349,9 +376,8 @@ namespace Supple
     if (!probes.empty())
       probe_history = open("probes.csv", probes.column_names());
     if (step_doubling)
-      error_history =
-        std::make_unique<CsvFile>(folder + "/error.csv",
-                                  std::vector<std::string>{"step", "time", "error"});
+      error_history = std::make_unique<CsvFile>(folder + "/error.csv",
+                                                std::vector<std::string>{"step", "time", "error"});
   }
 
 
@@ -512,6 +538,7 @@ namespace Supple
       const double seconds = seconds_of_run();
       now                  = diagnostics.measure(
         step, now.time, step_doubling ? seconds - step_doubling->seconds : seconds, state, report);
+      largest_energy = std::max(largest_energy, now.kinetic + now.elastic);
     }
     std::vector<double> row = {double(step), now.time};
     if (!probes.empty() && (writes_history || observer))
@@ -572,6 +599,7 @@ namespace Supple
     summary.status         = status;
     summary.warnings       = warnings();
     summary.integrator     = integrator->name();
+    summary.stable_step    = integrator->stable_step();
     summary.steps          = step;
     summary.setup_seconds  = setup_seconds;
     summary.run_seconds    = run_seconds;
@@ -601,6 +629,8 @@ namespace Supple
     if (implicit_operator.has_mass() && std::isfinite(error_estimate))
       std::cout << ", sum of local errors " << error_estimate << " m";
     std::cout << "; " << (frames ? frames->n_written() : 0) << " frames in " << folder << std::endl;
+    if (!energy_from_nowhere().empty())
+      line("warning", energy_from_nowhere());
     if (!step_doubling)
       return;
     if (step_doubling->failure.empty() && largest_motion > 0.)

@@ -90,13 +90,17 @@ namespace Supple
     json["held"]     = model.constraints.n_held;
     json["ranks"]    = dealii::Utilities::MPI::n_mpi_processes(model.body.mesh.communicator);
     json["method"]   = integrator;
-    json["solver"]   = {{"name", model.solver.name()},
-                        {"reason", model.solver.reason},
-                        {"tolerance", model.parameters.solver.tolerance},
-                        {"max_relative_residual", effort.max_relative_residual},
-                        {"solves", effort.solves},
-                        {"iterations", effort.linear_iterations},
-                        {"newton_iterations", effort.newton_iterations}};
+    if (stable_step)
+      json["stable_step"] = {{"step", stable_step->step},
+                             {"frequency", stable_step->frequency},
+                             {"limit", stable_step->limit}};
+    json["solver"] = {{"name", model.solver.name()},
+                      {"reason", model.solver.reason},
+                      {"tolerance", model.parameters.solver.tolerance},
+                      {"max_relative_residual", effort.max_relative_residual},
+                      {"solves", effort.solves},
+                      {"iterations", effort.linear_iterations},
+                      {"newton_iterations", effort.newton_iterations}};
 
     json["steps"]            = steps;
     json["rejected_steps"]   = effort.rejected_steps;

@@ -34,6 +34,12 @@ namespace Supple
     void
     load(const nlohmann::json &saved) override;
 
+    std::optional<StableStep>
+    stable_step() const override
+    {
+      return stable;
+    }
+
   private:
     StepReport
     take_step(State &state) override;
@@ -51,8 +57,12 @@ namespace Supple
     void
     create_memory();
 
+    /** @throws InputError if a fixed step of an explicit method is too long */
     void
     set_table();
+
+    void
+    check_stability() const;
 
     void
     set_linear_systems();
@@ -99,6 +109,7 @@ namespace Supple
     double size_limit      = std::numeric_limits<double>::max(); ///< of the next step [s]
     unsigned int grid      = 0; ///< multiples of the step that are reached
     long newton_iterations = 0;
+    std::optional<StableStep> stable; ///< of an explicit method
   };
 } // namespace Supple
 

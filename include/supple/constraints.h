@@ -48,6 +48,11 @@ namespace Supple
     void
     set_displacement(Vector &displacement, double time) const;
 
+    /** Sets the held entries to the velocity of their prescribed displacement [m/s], by differences
+     * at five times from @p time to @p time + 4 @p interval, of fourth order. */
+    void
+    set_velocity(Vector &velocity, double time, double interval) const;
+
     /** Copies the held entries. */
     void
     copy_held(Vector &to, const Vector &from) const;

@@ -42,6 +42,10 @@ namespace Supple
     double
     set_tolerances();
 
+    /** Of variable steps [s]: those that end up here would go on for ever. */
+    double
+    shortest_step() const;
+
     /** Throws what a callback threw, or else what SUNDIALS says. */
     [[noreturn]] void
     throw_what_failed();

@@ -293,6 +293,11 @@ namespace Supple
     double
     end() const;
 
+    /** So short a time [s] that differences over it are derivatives, and so long that round-off is
+     * small beside them. */
+    double
+    derivative_interval() const;
+
   private:
     void
     declare_tolerances(dealii::ParameterHandler &prm);

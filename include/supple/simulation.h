@@ -117,6 +117,10 @@ namespace Supple
     std::vector<std::string>
     warnings() const;
 
+    /** A warning where the time stepping itself drives the motion, or nothing. */
+    std::string
+    energy_from_nowhere() const;
+
     void
     open_output();
 
@@ -209,6 +213,7 @@ namespace Supple
     Measurement now;
     double error_estimate = 0.; ///< sum of the local errors [m]
     Vector start_displacement;
+    double largest_energy = 0.; ///< kinetic and elastic, so far [J]
     double largest_motion = 0.; ///< of a vertex from its place at the start, so far [m]
     double setup_seconds  = 0.;
     double run_seconds    = 0.; ///< without those of the second run

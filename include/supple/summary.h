@@ -15,6 +15,7 @@ namespace Supple
     std::string status; ///< done, interrupted or failed: why
     std::vector<std::string> warnings;
     std::string integrator;
+    std::optional<StableStep> stable_step; ///< of an explicit method
     unsigned int steps                = 0;
     double setup_seconds              = 0.;
     double run_seconds                = 0.;

@@ -4,6 +4,7 @@
 #include <supple/implicit_operator.h>
 #include <supple/linear_solver.h>
 #include <supple/loads.h>
+#include <supple/stable_step.h>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -85,6 +86,13 @@ namespace Supple
 
     virtual std::string
     name() const = 0;
+
+    /** Of an explicit method. */
+    virtual std::optional<StableStep>
+    stable_step() const
+    {
+      return {};
+    }
 
     /** Forces of the clamps on the body at the end of an observed step [N]; zero where it is free.
      */
