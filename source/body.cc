@@ -57,7 +57,7 @@ namespace Supple
         throw InputError(parameters.origin("Material/By id") + ": no cell has the material id " +
                          std::to_string(id) + ".");
 
-    std::vector<Tetrahedron> cells;
+    std::vector<Cell> known_cells;
     for (const LocalCell &cell : mesh.parts->cells)
       {
         const bool touches_owned =
@@ -69,17 +69,17 @@ namespace Supple
         IsotropicMaterial cell_is_of = material(cell.material_id);
         if (parameters.material.vertex_mass > 0.)
           cell_is_of.density = 0.;
-        cells.push_back({cell.nodes, cell_is_of, cell.owned});
+        known_cells.push_back({cell.nodes, cell_is_of, cell.owned});
         cell_nodes.push_back(cell.nodes);
         cell_index.push_back(cell.index);
         cell_material.push_back(cell.material_id);
       }
-    tetrahedra = std::make_unique<Tetrahedra>(positions,
-                                              n_owned,
-                                              cells,
-                                              parameters.material.lumped,
-                                              parameters.material.vertex_mass,
-                                              mesh.section);
+    cells = std::make_unique<Cells>(positions,
+                                    n_owned,
+                                    known_cells,
+                                    parameters.material.lumped,
+                                    parameters.material.vertex_mass,
+                                    mesh.section);
   }
 
 
@@ -97,7 +97,7 @@ namespace Supple
       return;
     const PhaseTimer timer(effort, Phase::rotations);
     const GhostValues values(displacement);
-    tetrahedra->update_rotations(rotation, values.data());
+    cells->update_rotations(rotation, values.data());
     effort.rotations_computed += cell_nodes.size();
   }
 
@@ -109,7 +109,7 @@ namespace Supple
   {
     const PhaseTimer timer(effort, Phase::assembly);
     const GhostValues values(displacement);
-    tetrahedra->update_rotation_stiffness(tangent, values.data());
+    cells->update_rotation_stiffness(tangent, values.data());
   }
 
 
@@ -118,7 +118,7 @@ namespace Supple
   {
     const PhaseTimer timer(effort, Phase::forces);
     const GhostValues values(displacement);
-    sum_into(force, [&](double *sum) { tetrahedra->add_internal_force(values.data(), sum); });
+    sum_into(force, [&](double *sum) { cells->add_internal_force(values.data(), sum); });
   }
 
 

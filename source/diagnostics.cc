@@ -130,7 +130,7 @@ namespace Supple
     const GhostValues displacement(state.block(0));
     const GhostValues velocity(state.block(moving ? 1 : 0));
     const CellSums local =
-      body.tetrahedra->sums(displacement.data(), moving ? velocity.data() : nullptr);
+      body.cells->sums(displacement.data(), moving ? velocity.data() : nullptr);
 
     const MPI_Comm communicator = body.mesh.communicator;
     std::vector<double> sums    = {local.kinetic, local.elastic, double(local.inverted)};

@@ -338,7 +338,7 @@ namespace Supple
   EquationOfMotion::full_mass_product(Vector &y, const Vector &x) const
   {
     const GhostValues values(x);
-    sum_into(y, [&](double *sum) { model.body.tetrahedra->add_mass_product(values.data(), sum); });
+    sum_into(y, [&](double *sum) { model.body.cells->add_mass_product(values.data(), sum); });
   }
 
 
@@ -347,9 +347,7 @@ namespace Supple
   {
     const DampingParameters &damping = model.parameters.damping;
     const GhostValues values(x);
-    sum_into(y, [&](double *sum) {
-      model.body.tetrahedra->add_stiffness_product(values.data(), sum);
-    });
+    sum_into(y, [&](double *sum) { model.body.cells->add_stiffness_product(values.data(), sum); });
     y *= damping.stiffness_factor;
     full_mass_product(scratch, x);
     y.add(damping.mass_factor, scratch, damping.viscous, x);

@@ -151,7 +151,7 @@ namespace Supple
     std::vector<std::pair<std::string, dealii::Vector<float>>> fields;
     for (const char *name : {"volume_ratio", "von_mises_stress", "rotation_angle", "material"})
       fields.emplace_back(name, dealii::Vector<float>(body.mesh.parts->n_cells));
-    const std::vector<CellState> states = body.tetrahedra->states(state.block(0).begin());
+    const std::vector<CellState> states = body.cells->states(state.block(0).begin());
     for (std::size_t c = 0; c < states.size(); ++c)
       {
         const unsigned int cell = body.cell_index[c];

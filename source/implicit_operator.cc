@@ -15,12 +15,12 @@ namespace Supple
     , pattern(make_pattern())
     , A(pattern)
   {
-    body.tetrahedra->connect(pattern);
+    body.cells->connect(pattern);
     find_masked_entries();
     if (parameters.time.problem == TimeParameters::Problem::dynamic)
       {
         M = std::make_unique<SymmetricScalarMatrix>(pattern);
-        body.tetrahedra->add_mass(*M);
+        body.cells->add_mass(*M);
       }
   }
 
@@ -84,7 +84,7 @@ namespace Supple
     ++effort.assemblies;
 
     A.set_zero();
-    body.tetrahedra->add_tangent(mass_factor, stiffness_factor, rotation_factor, A);
+    body.cells->add_tangent(mass_factor, stiffness_factor, rotation_factor, A);
     if (diagonal_term != 0.)
       A.add_to_diagonal(diagonal_term);
     for (const std::size_t position : masked_diagonal)
@@ -133,8 +133,8 @@ namespace Supple
   {
     const GhostValues values(x);
     sum_into(y, [&](double *sum) {
-      body.tetrahedra->add_stiffness_product(values.data(), sum);
-      body.tetrahedra->add_rotation_product(values.data(), sum);
+      body.cells->add_stiffness_product(values.data(), sum);
+      body.cells->add_rotation_product(values.data(), sum);
     });
     constraints.set_zero(y);
   }

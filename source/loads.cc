@@ -17,7 +17,7 @@ namespace Supple
     , pressure_follows(parameters.loads.pressure_follows)
   {
     std::vector<double> mass(body.n_local);
-    body.tetrahedra->add_nodal_mass(mass.data());
+    body.cells->add_nodal_mass(mass.data());
     body.initialize(gravity);
     for (unsigned int node = 0; node < body.n_owned; ++node)
       for (unsigned int i = 0; i < 3; ++i)
@@ -104,7 +104,7 @@ namespace Supple
   Loads::add_body_force(const double time, Vector &force) const
   {
     const std::vector<double> values = nodal_values(body_force, time);
-    sum_into(live, [&](double *sum) { body.tetrahedra->add_load(values.data(), sum); });
+    sum_into(live, [&](double *sum) { body.cells->add_load(values.data(), sum); });
     force += live;
   }
 

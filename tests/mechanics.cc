@@ -1,8 +1,8 @@
 // What must hold for linear and corotational tetrahedra whatever the mesh: here a box with
 // displaced inner vertices.
 
+#include <supple/cells.h>
 #include <supple/serial_mesh.h>
-#include <supple/tetrahedra.h>
 
 #include <Eigen/Dense>
 
@@ -49,7 +49,7 @@ namespace
   {
     SerialMesh mesh;
     std::vector<std::array<double, 3>> positions;
-    std::vector<Tetrahedron> cells;
+    std::vector<Cell> cells;
     std::vector<bool> inner;
 
     const double lambda = 2., mu = 1.5, density = 3.;
@@ -78,8 +78,8 @@ namespace
         cells.push_back({nodes, {lambda, mu, density}, true});
     }
 
-    Tetrahedra
-    tetrahedra(const bool lumped = false, const double vertex_mass = 0.) const
+    Cells
+    all_cells(const bool lumped = false, const double vertex_mass = 0.) const
     {
       const unsigned int n_owned = positions.size();
       return {positions, n_owned, cells, lumped, vertex_mass};
@@ -98,26 +98,26 @@ namespace
     }
 
     Nodal
-    force(const Tetrahedra &tetrahedra, const Nodal &u) const
+    force(const Cells &cells, const Nodal &u) const
     {
       Nodal f(u.size());
-      tetrahedra.add_internal_force(u.data(), f.data());
+      cells.add_internal_force(u.data(), f.data());
       return f;
     }
 
     /** Force with the rotations of the same displacement. */
     Nodal
-    own_force(Tetrahedra &tetrahedra, const RotationMethod method, const Nodal &u) const
+    own_force(Cells &cells, const RotationMethod method, const Nodal &u) const
     {
-      tetrahedra.update_rotations(method, u.data());
-      return force(tetrahedra, u);
+      cells.update_rotations(method, u.data());
+      return force(cells, u);
     }
 
     double
-    own_energy(Tetrahedra &tetrahedra, const RotationMethod method, const Nodal &u) const
+    own_energy(Cells &cells, const RotationMethod method, const Nodal &u) const
     {
-      tetrahedra.update_rotations(method, u.data());
-      return tetrahedra.sums(u.data(), nullptr).elastic;
+      cells.update_rotations(method, u.data());
+      return cells.sums(u.data(), nullptr).elastic;
     }
   };
 
@@ -237,11 +237,11 @@ namespace
     const std::array<double, 9> G = {{0.02, 0.01, -0.03, 0.015, -0.01, 0.02, 0.01, 0.005, 0.03}};
     for (const RotationMethod method : {RotationMethod::none, RotationMethod::polar})
       {
-        Tetrahedra tetrahedra = box.tetrahedra();
-        const Nodal u         = box.displacement(G);
+        Cells cells   = box.all_cells();
+        const Nodal u = box.displacement(G);
         if (method != RotationMethod::none)
-          tetrahedra.update_rotations(method, u.data());
-        const Nodal f = box.force(tetrahedra, u);
+          cells.update_rotations(method, u.data());
+        const Nodal f = box.force(cells, u);
         double inner = 0., boundary = 0.;
         for (std::size_t node = 0; node < box.positions.size(); ++node)
           for (unsigned int i = 0; i < 3; ++i)
@@ -251,7 +251,7 @@ namespace
                1e-13);
 
         // The same stress in all cells, and for linear elasticity the one of Hooke's law.
-        const auto states = tetrahedra.states(u.data());
+        const auto states = cells.states(u.data());
         double low = 1e300, high = 0.;
         for (const CellState &state : states)
           {
@@ -272,15 +272,15 @@ namespace
     double polar = 0., gram_schmidt = 0., volume = 0., angle_error = 0.;
     for (const double degrees : {10., 50., 90., 135., 179., 180.})
       {
-        const Nodal u         = box.displacement(rigid_rotation(degrees * M_PI / 180.));
-        Tetrahedra tetrahedra = box.tetrahedra();
+        const Nodal u = box.displacement(rigid_rotation(degrees * M_PI / 180.));
+        Cells cells   = box.all_cells();
         gram_schmidt =
-          std::max(gram_schmidt, norm(box.own_force(tetrahedra, RotationMethod::gram_schmidt, u)));
-        polar = std::max(polar, norm(box.own_force(tetrahedra, RotationMethod::polar, u)));
-        const CellSums sums = tetrahedra.sums(u.data(), nullptr);
+          std::max(gram_schmidt, norm(box.own_force(cells, RotationMethod::gram_schmidt, u)));
+        polar               = std::max(polar, norm(box.own_force(cells, RotationMethod::polar, u)));
+        const CellSums sums = cells.sums(u.data(), nullptr);
         volume              = std::max(
           {volume, std::abs(sums.max_volume_ratio - 1.), std::abs(sums.min_volume_ratio - 1.)});
-        for (const CellState &state : tetrahedra.states(u.data()))
+        for (const CellState &state : cells.states(u.data()))
           angle_error = std::max(angle_error, std::abs(state.rotation_angle - degrees));
       }
     report("  polar force", polar, 1e-12);
@@ -323,11 +323,11 @@ namespace
   void
   test_turned(const JitteredBox &box, const Nodal &u, const RotationMethod method)
   {
-    Tetrahedra tetrahedra = box.tetrahedra();
-    const Nodal u_turned  = turned(box, u, rigid_rotation(2.));
-    const double energy   = box.own_energy(tetrahedra, method, u);
+    Cells cells          = box.all_cells();
+    const Nodal u_turned = turned(box, u, rigid_rotation(2.));
+    const double energy  = box.own_energy(cells, method, u);
     report("  change of the energy when the deformed body is turned",
-           std::abs(box.own_energy(tetrahedra, method, u_turned) / energy - 1.),
+           std::abs(box.own_energy(cells, method, u_turned) / energy - 1.),
            1e-13);
 
     // The whole scene turned: body at rest and displacement.
@@ -339,9 +339,8 @@ namespace
         other.positions[dof / 3][dof % 3] += rest[dof];
         moved[dof] -= rest[dof];
       }
-    Tetrahedra turned_tetrahedra = other.tetrahedra();
-    const double change =
-      std::abs(other.own_energy(turned_tetrahedra, method, moved) / energy - 1.);
+    Cells turned_cells  = other.all_cells();
+    const double change = std::abs(other.own_energy(turned_cells, method, moved) / energy - 1.);
     if (method == RotationMethod::polar)
       report("  change of the energy when the scene is turned", change, 1e-13);
     else
@@ -356,10 +355,10 @@ namespace
     const std::array<double, 9> G = rigid_rotation(1.);
     for (const RotationMethod method : {RotationMethod::polar, RotationMethod::gram_schmidt})
       {
-        Tetrahedra tetrahedra = box.tetrahedra();
-        const Nodal u         = box.displacement(G, 0.15);
-        const Nodal f         = box.own_force(tetrahedra, method, u);
-        double difference     = 0.;
+        Cells cells       = box.all_cells();
+        const Nodal u     = box.displacement(G, 0.15);
+        const Nodal f     = box.own_force(cells, method, u);
+        double difference = 0.;
         for (std::size_t dof = 0; dof < u.size(); dof += 5)
           {
             const double h = 1e-5;
@@ -367,8 +366,7 @@ namespace
             up[dof] += h;
             down[dof] -= h;
             const double slope =
-              (box.own_energy(tetrahedra, method, up) - box.own_energy(tetrahedra, method, down)) /
-              (2. * h);
+              (box.own_energy(cells, method, up) - box.own_energy(cells, method, down)) / (2. * h);
             difference = std::max(difference, std::abs(slope - f[dof]));
           }
         if (method == RotationMethod::polar)
@@ -406,14 +404,14 @@ namespace
     std::printf("Operator against differences of the force with rotations held\n");
     const Nodal u = box.displacement(rigid_rotation(0.7), 0.1);
     const Nodal w = box.displacement({{0.3, 0.1, 0.2, -0.4, 0.5, 0.1, 0.2, 0.2, -0.3}}, 0.4);
-    Tetrahedra tetrahedra = box.tetrahedra();
-    tetrahedra.update_rotations(RotationMethod::polar, u.data());
+    Cells cells   = box.all_cells();
+    cells.update_rotations(RotationMethod::polar, u.data());
 
     Nodal product(u.size());
-    tetrahedra.add_stiffness_product(w.data(), product.data());
+    cells.add_stiffness_product(w.data(), product.data());
     Nodal shifted = u;
     std::transform(u.begin(), u.end(), w.begin(), shifted.begin(), std::plus<>());
-    const Nodal f0 = box.force(tetrahedra, u), f1 = box.force(tetrahedra, shifted);
+    const Nodal f0 = box.force(cells, u), f1 = box.force(cells, shifted);
     Nodal error(u.size());
     for (std::size_t i = 0; i < u.size(); ++i)
       error[i] = f1[i] - f0[i] - product[i];
@@ -422,7 +420,7 @@ namespace
     const SymmetricPattern pattern = full_pattern(box.positions.size());
     for (const bool lumped : {false, true})
       {
-        Tetrahedra massive = box.tetrahedra(lumped);
+        Cells massive = box.all_cells(lumped);
         massive.update_rotations(RotationMethod::polar, u.data());
         massive.connect(pattern);
         SymmetricBlockMatrix A(pattern);
@@ -449,11 +447,11 @@ namespace
 
   /** The smallest and the largest eigenvalue of K'. */
   std::pair<double, double>
-  extreme_eigenvalues(Tetrahedra &tetrahedra, const SymmetricPattern &pattern)
+  extreme_eigenvalues(Cells &cells, const SymmetricPattern &pattern)
   {
-    tetrahedra.connect(pattern);
+    cells.connect(pattern);
     SymmetricBlockMatrix A(pattern);
-    tetrahedra.add_tangent(0., 1., 1., A);
+    cells.add_tangent(0., 1., 1., A);
     const unsigned int n = 3 * pattern.n_owned;
     Eigen::MatrixXd K(n, n);
     Nodal unit(n), column(n);
@@ -482,8 +480,8 @@ namespace
         for (unsigned int i = 0; i < 3; ++i)
           for (unsigned int j = 0; j < 3; ++j)
             G[3 * i + j] = squeezed * (G[3 * i + j] + (i == j)) - (i == j);
-        const Nodal u         = box.displacement(G, 0.1);
-        Tetrahedra tetrahedra = box.tetrahedra();
+        const Nodal u = box.displacement(G, 0.1);
+        Cells cells   = box.all_cells();
 
         const double h = 1e-5;
         Nodal up = u, down = u, product(u.size()), error(u.size());
@@ -492,27 +490,27 @@ namespace
             up[i] += h * w[i];
             down[i] -= h * w[i];
           }
-        const Nodal f_up   = box.own_force(tetrahedra, RotationMethod::polar, up);
-        const Nodal f_down = box.own_force(tetrahedra, RotationMethod::polar, down);
-        tetrahedra.update_rotations(RotationMethod::polar, u.data());
-        tetrahedra.update_rotation_stiffness(Tangent::consistent, u.data());
-        tetrahedra.add_stiffness_product(w.data(), product.data());
-        tetrahedra.add_rotation_product(w.data(), product.data());
+        const Nodal f_up   = box.own_force(cells, RotationMethod::polar, up);
+        const Nodal f_down = box.own_force(cells, RotationMethod::polar, down);
+        cells.update_rotations(RotationMethod::polar, u.data());
+        cells.update_rotation_stiffness(Tangent::consistent, u.data());
+        cells.add_stiffness_product(w.data(), product.data());
+        cells.add_rotation_product(w.data(), product.data());
         for (std::size_t i = 0; i < u.size(); ++i)
           error[i] = (f_up[i] - f_down[i]) / (2. * h) - product[i];
         report(squeezed > 1. ? "  stretched" : "  squeezed", norm(error) / norm(product), 1e-8);
 
-        tetrahedra.connect(pattern);
+        cells.connect(pattern);
         SymmetricBlockMatrix A(pattern);
-        tetrahedra.add_tangent(0., 1., 1., A);
+        cells.add_tangent(0., 1., 1., A);
         A.vmult(error.data(), w.data());
         for (std::size_t i = 0; i < u.size(); ++i)
           error[i] -= product[i];
         report("  as a matrix", norm(error) / norm(product), 1e-13);
 
-        const auto consistent = extreme_eigenvalues(tetrahedra, pattern);
-        tetrahedra.update_rotation_stiffness(Tangent::definite, u.data());
-        const auto definite = extreme_eigenvalues(tetrahedra, pattern);
+        const auto consistent = extreme_eigenvalues(cells, pattern);
+        cells.update_rotation_stiffness(Tangent::definite, u.data());
+        const auto definite = extreme_eigenvalues(cells, pattern);
         report("  definite: smallest over largest eigenvalue, with a minus sign",
                std::max(0., -definite.first / definite.second),
                1e-13);
@@ -528,10 +526,10 @@ namespace
     std::printf("Momenta and energy of a body that turns about the axis (1, 2, 3)\n");
     for (const bool lumped : {false, true})
       {
-        const Tetrahedra tetrahedra = box.tetrahedra(lumped);
-        const Nodal v               = box.displacement({{0., -3., 2., 3., 0., -1., -2., 1., 0.}});
+        const Cells cells = box.all_cells(lumped);
+        const Nodal v     = box.displacement({{0., -3., 2., 3., 0., -1., -2., 1., 0.}});
         const Nodal u(v.size());
-        const CellSums sums = tetrahedra.sums(u.data(), v.data());
+        const CellSums sums = cells.sums(u.data(), v.data());
         std::printf("  %s: p %.10f %.10f %.10f, l %.10f %.10f %.10f, kinetic %.10f\n",
                     lumped ? "lumped" : "consistent",
                     sums.linear_momentum[0],
@@ -542,7 +540,7 @@ namespace
                     sums.angular_momentum[2],
                     sums.kinetic);
         std::vector<double> mass(box.positions.size());
-        tetrahedra.add_nodal_mass(mass.data());
+        cells.add_nodal_mass(mass.data());
         double total = 0.;
         for (const double m : mass)
           total += m;

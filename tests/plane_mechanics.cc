@@ -1,8 +1,8 @@
 // What must hold for the triangles of plane bodies whatever the mesh: here a rectangle with
 // displaced inner vertices, in plane strain, plane stress and around an axis.
 
+#include <supple/cells.h>
 #include <supple/serial_mesh.h>
-#include <supple/tetrahedra.h>
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +40,7 @@ namespace
   struct JitteredRectangle
   {
     std::vector<std::array<double, 3>> positions;
-    std::vector<Tetrahedron> cells;
+    std::vector<Cell> cells;
     std::vector<bool> inner;
     Section section;
 
@@ -74,7 +74,7 @@ namespace
         cells.push_back({nodes, {lambda, mu, density}, true});
     }
 
-    Tetrahedra
+    Cells
     triangles(const bool lumped = false) const
     {
       const unsigned int n_owned = positions.size();
@@ -97,7 +97,7 @@ namespace
     }
 
     Nodal
-    force(const Tetrahedra &triangles, const Nodal &u) const
+    force(const Cells &triangles, const Nodal &u) const
     {
       Nodal f(u.size());
       triangles.add_internal_force(u.data(), f.data());
@@ -105,7 +105,7 @@ namespace
     }
 
     double
-    own_energy(Tetrahedra &triangles, const RotationMethod method, const Nodal &u) const
+    own_energy(Cells &triangles, const RotationMethod method, const Nodal &u) const
     {
       triangles.update_rotations(method, u.data());
       return triangles.sums(u.data(), nullptr).elastic;
@@ -198,8 +198,8 @@ namespace
                                       : std::array<double, 4>{{0.02, 0.01, 0.015, -0.03}};
     for (const RotationMethod method : {RotationMethod::none, RotationMethod::polar})
       {
-        Tetrahedra triangles = body.triangles();
-        const Nodal u        = body.displacement(G);
+        Cells triangles = body.triangles();
+        const Nodal u   = body.displacement(G);
         if (method != RotationMethod::none)
           triangles.update_rotations(method, u.data());
         const Nodal f = body.force(triangles, u);
@@ -229,9 +229,9 @@ namespace
   test_rigid_motion(const JitteredRectangle &body)
   {
     double force = 0., volume = 0., angle_error = 0., energy = 0.;
-    Tetrahedra triangles = body.triangles();
-    const Nodal bent     = body.displacement({{0.1, 0.2, 0.3, 0.1}}, 0.2);
-    const double before  = body.own_energy(triangles, RotationMethod::polar, bent);
+    Cells triangles     = body.triangles();
+    const Nodal bent    = body.displacement({{0.1, 0.2, 0.3, 0.1}}, 0.2);
+    const double before = body.own_energy(triangles, RotationMethod::polar, bent);
     for (const double degrees : {10., 50., 90., 135., 179., 180., 270., 359.})
       {
         const auto Q  = turn(degrees * M_PI / 180.);
@@ -272,9 +272,9 @@ namespace
     for (const bool inverted : {false, true})
       {
         // Inverted: mirrored at the line y = 0, with waves so that no cell is a mere reflection.
-        const Nodal u        = inverted ? body.displacement({{0.2, 0.3, 0., -2.3}}, 0.1)
-                                        : body.displacement(turn(1.), 0.15);
-        Tetrahedra triangles = body.triangles();
+        const Nodal u   = inverted ? body.displacement({{0.2, 0.3, 0., -2.3}}, 0.1)
+                                   : body.displacement(turn(1.), 0.15);
+        Cells triangles = body.triangles();
         triangles.update_rotations(RotationMethod::polar, u.data());
         const unsigned int n_inverted = triangles.sums(u.data(), nullptr).inverted;
         const Nodal f                 = body.force(triangles, u);
@@ -340,7 +340,7 @@ namespace
     const Nodal w = body.displacement({{0.3, 0.1, 0.2, -0.4}}, 0.4);
     for (const bool lumped : {false, true})
       {
-        Tetrahedra triangles = body.triangles(lumped);
+        Cells triangles = body.triangles(lumped);
         triangles.update_rotations(RotationMethod::polar, u.data());
         Nodal product(u.size()), error(u.size()), shifted = u;
         triangles.add_stiffness_product(w.data(), product.data());
@@ -388,8 +388,8 @@ namespace
     const Nodal rest(3 * body.positions.size()), v = body.displacement({{0., 0., 1., 0.}});
     for (const bool lumped : {false, true})
       {
-        const Tetrahedra triangles = body.triangles(lumped);
-        const CellSums sums        = triangles.sums(rest.data(), v.data());
+        const Cells triangles = body.triangles(lumped);
+        const CellSums sums   = triangles.sums(rest.data(), v.data());
         std::vector<double> mass(body.positions.size());
         triangles.add_nodal_mass(mass.data());
         double total = 0.;

@@ -1,9 +1,9 @@
 #ifndef supple_body_h
 #define supple_body_h
 
+#include <supple/cells.h>
 #include <supple/effort.h>
 #include <supple/mesh.h>
-#include <supple/tetrahedra.h>
 #include <supple/vector.h>
 
 #include <memory>
@@ -36,7 +36,7 @@ namespace Supple
     std::vector<unsigned int> cell_index;                ///< place in values by cell
     std::vector<unsigned int> cell_material;             ///< material id of each cell
 
-    std::unique_ptr<Tetrahedra> tetrahedra;
+    std::unique_ptr<Cells> cells;
 
     /** Degrees of freedom on all processes, without those along z of a plane body. */
     unsigned int
@@ -54,7 +54,7 @@ namespace Supple
     void
     update_rotations(const Vector &displacement, Effort &effort) const;
 
-    /** What the derivatives of the rotations add to K', see Tetrahedra. */
+    /** What the derivatives of the rotations add to K', see Cells. */
     void
     update_rotation_stiffness(Tangent tangent, const Vector &displacement, Effort &effort) const;
 

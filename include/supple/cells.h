@@ -1,5 +1,5 @@
-#ifndef supple_tetrahedra_h
-#define supple_tetrahedra_h
+#ifndef supple_cells_h
+#define supple_cells_h
 
 #include <supple/block_matrix.h>
 #include <supple/material.h>
@@ -28,8 +28,8 @@ namespace Supple
   };
 
 
-  /** One linear tetrahedron, or triangle, as Tetrahedra wants to know it. */
-  struct Tetrahedron
+  /** One linear tetrahedron, or triangle, as Cells wants to know it. */
+  struct Cell
   {
     std::array<unsigned int, 4> nodes; ///< local node numbers, positively oriented; 3 of a triangle
     IsotropicMaterial material;
@@ -97,7 +97,7 @@ namespace Supple
    * of 3 n_local doubles, node by node; ghost values must be valid in what is read, and those of
    * what is written are meaningless.
    */
-  class Tetrahedra
+  class Cells
   {
   public:
     /**
@@ -105,12 +105,12 @@ namespace Supple
      * in sums
      * @param vertex_mass mass [kg] of each node beside that of the cells
      */
-    Tetrahedra(const std::vector<std::array<double, 3>> &positions,
-               unsigned int n_owned,
-               const std::vector<Tetrahedron> &cells,
-               bool lumped_mass,
-               double vertex_mass,
-               const Section &section = Section());
+    Cells(const std::vector<std::array<double, 3>> &positions,
+          unsigned int n_owned,
+          const std::vector<Cell> &cells,
+          bool lumped_mass,
+          double vertex_mass,
+          const Section &section = Section());
 
     /** Finds the place of each cell's blocks in matrices with this pattern. */
     void
@@ -209,7 +209,7 @@ namespace Supple
     scatter(const Batch &batch, const NodalPack &values, double *nodal);
 
     void
-    add_cell(std::size_t number, const Tetrahedron &cell);
+    add_cell(std::size_t number, const Cell &cell);
 
     /** With the hoop strain of an axisymmetric body in the last entry. */
     Matrix3<Pack>

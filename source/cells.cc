@@ -1,4 +1,4 @@
-#include <supple/tetrahedra.h>
+#include <supple/cells.h>
 
 #include <algorithm>
 #include <cmath>
@@ -69,12 +69,12 @@ namespace Supple
   } // namespace
 
 
-  Tetrahedra::Tetrahedra(const std::vector<std::array<double, 3>> &positions,
-                         const unsigned int n_owned,
-                         const std::vector<Tetrahedron> &cells,
-                         const bool lumped_mass,
-                         const double vertex_mass,
-                         const Section &section)
+  Cells::Cells(const std::vector<std::array<double, 3>> &positions,
+               const unsigned int n_owned,
+               const std::vector<Cell> &cells,
+               const bool lumped_mass,
+               const double vertex_mass,
+               const Section &section)
     : n_cells(cells.size())
     , n_owned(n_owned)
     , lumped_mass(lumped_mass)
@@ -92,7 +92,7 @@ namespace Supple
 
 
   void
-  Tetrahedra::add_cell(const std::size_t number, const Tetrahedron &cell)
+  Cells::add_cell(const std::size_t number, const Cell &cell)
   {
     Batch &batch            = batches[number / n_lanes];
     const unsigned int lane = number % n_lanes;
@@ -140,7 +140,7 @@ namespace Supple
 
 
   void
-  Tetrahedra::connect(const SymmetricPattern &pattern)
+  Cells::connect(const SymmetricPattern &pattern)
   {
     slots.resize(batches.size());
     for (std::size_t b = 0; b < batches.size(); ++b)
@@ -161,8 +161,8 @@ namespace Supple
   }
 
 
-  Tetrahedra::NodalPack
-  Tetrahedra::gather(const Batch &batch, const double *nodal)
+  Cells::NodalPack
+  Cells::gather(const Batch &batch, const double *nodal)
   {
     NodalPack values;
     for (unsigned int a = 0; a < 4; ++a)
@@ -179,7 +179,7 @@ namespace Supple
 
 
   void
-  Tetrahedra::scatter(const Batch &batch, const NodalPack &values, double *nodal)
+  Cells::scatter(const Batch &batch, const NodalPack &values, double *nodal)
   {
     for (unsigned int a = 0; a < 4; ++a)
       {
@@ -194,7 +194,7 @@ namespace Supple
 
 
   Matrix3<Pack>
-  Tetrahedra::gradient(const std::size_t b, const NodalPack &values) const
+  Cells::gradient(const std::size_t b, const NodalPack &values) const
   {
     const Batch &batch = batches[b];
     Matrix3<Pack> G;
@@ -209,7 +209,7 @@ namespace Supple
 
 
   Matrix3<Pack>
-  Tetrahedra::deformation_gradient(const std::size_t b, const double *displacement) const
+  Cells::deformation_gradient(const std::size_t b, const double *displacement) const
   {
     Matrix3<Pack> F = gradient(b, gather(batches[b], displacement));
     for (unsigned int i = 0; i < 3; ++i)
@@ -219,14 +219,14 @@ namespace Supple
 
 
   Matrix3<Pack>
-  Tetrahedra::rotation_of(const std::size_t b) const
+  Cells::rotation_of(const std::size_t b) const
   {
     return rotations.empty() ? Matrix3<Pack>::identity() : rotations[b];
   }
 
 
   Matrix3<Pack>
-  Tetrahedra::rotated_back(const std::size_t b, const Matrix3<Pack> &G) const
+  Cells::rotated_back(const std::size_t b, const Matrix3<Pack> &G) const
   {
     Matrix3<Pack> S = transposed_product(rotation_of(b), G);
     for (unsigned int i = 0; i < 3; ++i)
@@ -237,7 +237,7 @@ namespace Supple
 
 
   Matrix3<Pack>
-  Tetrahedra::strain(const std::size_t b, const Matrix3<Pack> &F) const
+  Cells::strain(const std::size_t b, const Matrix3<Pack> &F) const
   {
     Matrix3<Pack> e = rotated_back(b, F);
     for (unsigned int i = 0; i < 3; ++i)
@@ -247,7 +247,7 @@ namespace Supple
 
 
   Matrix3<Pack>
-  Tetrahedra::stress(const Batch &batch, const Matrix3<Pack> &strain)
+  Cells::stress(const Batch &batch, const Matrix3<Pack> &strain)
   {
     Matrix3<Pack> P;
     for (unsigned int k = 0; k < 9; ++k)
@@ -260,9 +260,9 @@ namespace Supple
 
 
   void
-  Tetrahedra::add_stress_divergence(const std::size_t b,
-                                    const Matrix3<Pack> &strain,
-                                    double *force) const
+  Cells::add_stress_divergence(const std::size_t b,
+                               const Matrix3<Pack> &strain,
+                               double *force) const
   {
     const Batch &batch = batches[b];
     Matrix3<Pack> P    = stress(batch, strain);
@@ -282,7 +282,7 @@ namespace Supple
 
 
   void
-  Tetrahedra::update_rotations(const RotationMethod method, const double *displacement)
+  Cells::update_rotations(const RotationMethod method, const double *displacement)
   {
     rotations.resize(batches.size());
     if (section.plane())
@@ -295,7 +295,7 @@ namespace Supple
 
 
   void
-  Tetrahedra::add_internal_force(const double *displacement, double *force) const
+  Cells::add_internal_force(const double *displacement, double *force) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
       add_stress_divergence(b, strain(b, deformation_gradient(b, displacement)), force);
@@ -303,7 +303,7 @@ namespace Supple
 
 
   void
-  Tetrahedra::add_stiffness_product(const double *w, double *y) const
+  Cells::add_stiffness_product(const double *w, double *y) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
       add_stress_divergence(b, rotated_back(b, gradient(b, gather(batches[b], w))), y);
@@ -311,7 +311,7 @@ namespace Supple
 
 
   Pack
-  Tetrahedra::nodal_share(const std::size_t b, const unsigned int a) const
+  Cells::nodal_share(const std::size_t b, const unsigned int a) const
   {
     if (hoops.empty())
       return 1. / n_nodes;
@@ -324,7 +324,7 @@ namespace Supple
    * the weight r, which makes it (3 + r_a/r + r_c/r)/5 times that.
    */
   Pack
-  Tetrahedra::mass_entry(const std::size_t b, const unsigned int a, const unsigned int c) const
+  Cells::mass_entry(const std::size_t b, const unsigned int a, const unsigned int c) const
   {
     const Pack mass = batches[b].density * batches[b].volume;
     if (lumped_mass)
@@ -336,11 +336,11 @@ namespace Supple
   }
 
 
-  Tetrahedra::NodalPack
-  Tetrahedra::integral(const std::size_t b,
-                       const Pack &weight,
-                       const bool lumped,
-                       const NodalPack &values) const
+  Cells::NodalPack
+  Cells::integral(const std::size_t b,
+                  const Pack &weight,
+                  const bool lumped,
+                  const NodalPack &values) const
   {
     const Pack share    = weight * pair_share;
     const double fourth = n_nodes == 4 ? 1. : 0.; // a triangle has no such node
@@ -370,15 +370,15 @@ namespace Supple
   }
 
 
-  Tetrahedra::NodalPack
-  Tetrahedra::mass_product(const std::size_t b, const NodalPack &values) const
+  Cells::NodalPack
+  Cells::mass_product(const std::size_t b, const NodalPack &values) const
   {
     return integral(b, batches[b].density * batches[b].volume, lumped_mass, values);
   }
 
 
   void
-  Tetrahedra::add_mass_product(const double *w, double *y) const
+  Cells::add_mass_product(const double *w, double *y) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
       scatter(batches[b], mass_product(b, gather(batches[b], w)), y);
@@ -389,7 +389,7 @@ namespace Supple
 
 
   void
-  Tetrahedra::add_load(const double *force_density, double *force) const
+  Cells::add_load(const double *force_density, double *force) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
       scatter(batches[b],
@@ -400,11 +400,11 @@ namespace Supple
 
   template <bool axisymmetric>
   void
-  Tetrahedra::add_tangent_of(const std::size_t b,
-                             const double mass_factor,
-                             const double stiffness_factor,
-                             const double rotation_factor,
-                             SymmetricBlockMatrix &A) const
+  Cells::add_tangent_of(const std::size_t b,
+                        const double mass_factor,
+                        const double stiffness_factor,
+                        const double rotation_factor,
+                        SymmetricBlockMatrix &A) const
   {
     const Batch &batch = batches[b];
     const Pack lambda  = stiffness_factor * batch.volume * batch.lambda;
@@ -462,10 +462,10 @@ namespace Supple
 
 
   void
-  Tetrahedra::add_tangent(const double mass_factor,
-                          const double stiffness_factor,
-                          const double rotation_factor,
-                          SymmetricBlockMatrix &A) const
+  Cells::add_tangent(const double mass_factor,
+                     const double stiffness_factor,
+                     const double rotation_factor,
+                     SymmetricBlockMatrix &A) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
       if (section.axisymmetric())
@@ -478,7 +478,7 @@ namespace Supple
 
 
   void
-  Tetrahedra::add_mass(SymmetricScalarMatrix &M) const
+  Cells::add_mass(SymmetricScalarMatrix &M) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
       {
@@ -501,7 +501,7 @@ namespace Supple
 
 
   void
-  Tetrahedra::add_nodal_mass(double *mass) const
+  Cells::add_nodal_mass(double *mass) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
       for (unsigned int a = 0; a < n_nodes; ++a)
@@ -516,7 +516,7 @@ namespace Supple
 
 
   double
-  Tetrahedra::round_off_square() const
+  Cells::round_off_square() const
   {
     constexpr double epsilon = 8. * std::numeric_limits<double>::epsilon();
     Pack sum(0.);
@@ -531,7 +531,7 @@ namespace Supple
 
 
   CellSums
-  Tetrahedra::sums(const double *displacement, const double *velocity) const
+  Cells::sums(const double *displacement, const double *velocity) const
   {
     CellSums sums;
     add_deformation(displacement, sums);
@@ -551,7 +551,7 @@ namespace Supple
 
 
   void
-  Tetrahedra::add_deformation(const double *displacement, CellSums &sums) const
+  Cells::add_deformation(const double *displacement, CellSums &sums) const
   {
     Pack elastic(0.), inverted(0.);
     Pack smallest(sums.min_volume_ratio), largest(sums.max_volume_ratio);
@@ -580,7 +580,7 @@ namespace Supple
 
   /** A cell's mass matrix times its velocities gives the momenta of its nodes. */
   void
-  Tetrahedra::add_motion(const double *displacement, const double *velocity, CellSums &sums) const
+  Cells::add_motion(const double *displacement, const double *velocity, CellSums &sums) const
   {
     Pack kinetic(0.);
     std::array<Pack, 3> linear{{0., 0., 0.}}, angular{{0., 0., 0.}};
@@ -614,9 +614,9 @@ namespace Supple
 
 
   void
-  Tetrahedra::add_motion_of_vertices(const double *displacement,
-                                     const double *velocity,
-                                     CellSums &sums) const
+  Cells::add_motion_of_vertices(const double *displacement,
+                                const double *velocity,
+                                CellSums &sums) const
   {
     for (std::size_t node = 0; node < n_owned; ++node)
       {
@@ -636,7 +636,7 @@ namespace Supple
 
 
   std::vector<CellState>
-  Tetrahedra::states(const double *displacement) const
+  Cells::states(const double *displacement) const
   {
     std::vector<CellState> states(n_cells);
     for (std::size_t b = 0; b < batches.size(); ++b)

@@ -1,5 +1,5 @@
+#include <supple/cells.h>
 #include <supple/symmetric_eigen.h>
-#include <supple/tetrahedra.h>
 
 namespace Supple
 {
@@ -28,7 +28,7 @@ namespace Supple
 
 
   void
-  Tetrahedra::update_rotation_stiffness(const Tangent tangent, const double *displacement)
+  Cells::update_rotation_stiffness(const Tangent tangent, const double *displacement)
   {
     if (tangent == Tangent::frozen || rotations.empty())
       {
@@ -65,8 +65,8 @@ namespace Supple
   }
 
 
-  Tetrahedra::NodalPack
-  Tetrahedra::rotated_gradients(const std::size_t b) const
+  Cells::NodalPack
+  Cells::rotated_gradients(const std::size_t b) const
   {
     NodalPack h = batches[b].gradients;
     if (!rotations.empty())
@@ -77,10 +77,10 @@ namespace Supple
 
 
   std::array<std::array<Pack, 3>, 3>
-  Tetrahedra::rotation_block(const std::size_t b,
-                             const NodalPack &h,
-                             unsigned int a,
-                             unsigned int c) const
+  Cells::rotation_block(const std::size_t b,
+                        const NodalPack &h,
+                        unsigned int a,
+                        unsigned int c) const
   {
     std::array<std::array<Pack, 3>, 3> columns;
     for (unsigned int j = 0; j < 3; ++j)
@@ -94,7 +94,7 @@ namespace Supple
 
 
   void
-  Tetrahedra::add_rotation_product(const double *w, double *y) const
+  Cells::add_rotation_product(const double *w, double *y) const
   {
     for (std::size_t b = 0; b < rotation_stiffness.size(); ++b)
       {
