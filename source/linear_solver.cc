@@ -139,7 +139,7 @@ namespace Supple
     if (!all_finite(b))
       throw ComputationError("the forces are not finite numbers");
     const double size = b.l2_norm();
-    if (size == 0.)
+    if (size < 1e-100) // squares of smaller numbers are lost in conjugate gradients
       {
         x = 0.;
         return 0;
