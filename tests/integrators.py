@@ -100,24 +100,29 @@ def tolerances():
     """With variable steps the error falls with the tolerance, and two integrators agree as far as it asks."""
     exact = references(PUSHED)
     size = max(abs(value) for value in exact["consistent"])
-    ends = {}
+    ends, counts = {}, {}
     for name, (_, order) in VARIABLE.items():
         errors = []
         for tolerance in (1e-3, 1e-4, 1e-5):
             results = simulate({**PUSHED, **settings_of(name, tolerance=tolerance)})
-            ends[name, tolerance] = place(results)
+            ends[name, tolerance], counts[name, tolerance] = place(results), results.summary()["steps"]
             errors.append(distance(place(results), exact[mass_of(name)]) / size)
             runner.check(errors[-1] < error_bound(order, tolerance), f"{name}: error {errors[-1]} at {tolerance}")
         print(f"{name}: relative errors {', '.join(f'{error:.1e}' for error in errors)}")
-        runner.check(errors[-1] < 0.3 * errors[0], f"{name}: errors {errors}")
+        # (An explicit method may be held to the stable step and be better than asked.)
+        runner.check(errors[-1] < 0.3 * errors[0] or errors[0] < 1e-5, f"{name}: errors {errors}")
 
-    # Two codes, two formulas, one motion.
+    # Two codes, two formulas, one motion. The tolerance bounds what each step may err by, not the sum over the steps, of
+    # which there are about tolerance^(-1/(p+1)): they differ by more than it, and the more so the smaller it is.
     for tolerance in (1e-3, 1e-4, 1e-5):
         for order in (1, 2):
             for arkode in ("variable trbdf2", "variable esdirk4"):
                 apart = distance(ends[f"ida {order}", tolerance], ends[arkode, tolerance]) / size
-                print(f"tolerance {tolerance}: ida of order {order} and {arkode} differ by {apart:.1e}")
+                steps = counts[f"ida {order}", tolerance]
+                print(f"tolerance {tolerance}: ida of order {order} and {arkode} differ by {apart:.1e}, {apart / tolerance:.0f} "
+                      f"times the tolerance, {apart / tolerance / steps:.3f} of it for each of the {steps} steps of ida")
                 runner.check(apart < error_bound(order, tolerance), f"ida {order}, {arkode}: {apart} at {tolerance}")
+                runner.check(apart < 0.3 * steps * tolerance, f"ida {order}, {arkode}: {apart} after {steps} steps of {tolerance}")
 
     # A blow that is short beside the step tried first is not stepped over.
     blow = {**STILL, "Loads/Body force": "0; 0; -1e6*exp(-((t - 0.1)/0.01)^2)"}
