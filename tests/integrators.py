@@ -303,6 +303,16 @@ def stability():
         total = [row["kinetic"] + row["elastic"] for row in history]
         runner.check(max(total) < 1.05 * total[0], f"{name}: the energy grows to {max(total) / total[0]} of itself")
 
+    # Variable steps are held to it however loose the tolerance is.
+    loose = {**plucked, **settings_of("variable explicit5", 2000, 0.1, duration=20)}
+    results = simulate(loose)
+    history, limit = results.history(), results.summary()["stable_step"]["step"]
+    total = [row["kinetic"] + row["elastic"] for row in history]
+    print(f"variable explicit5 at a tolerance of 0.1: steps up to {max(row['dt'] for row in history) / limit} of the stable one, "
+          f"energy up to {max(total) / total[0]} of that at the start")
+    runner.check(max(row["dt"] for row in history) < limit * (1 + 1e-9), "steps longer than the stable one")
+    runner.check(max(total) < 1.05 * total[0], f"variable explicit5: the energy grows to {max(total) / total[0]} of itself")
+
     # By the Gershgorin of physics: a cell's size over the speed of sound, whatever the unit of length.
     for scale in (1e-3, 1e3):
         sizes = {"Mesh/Box size": f"{4 * scale}, {12 * scale}, {4 * scale}", "Time/Method": "explicit4", "Probes/Points": ""}
