@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs the studies of doc/studies.md into output/ and takes their plots into doc/pictures: scripts/studies.sh runs all (a
-# quarter of an hour), scripts/studies.sh NAME... some. SUPPLE=path takes another executable instead of building one. What they
+# Runs the studies of doc/studies.md into output/ and takes their plots into doc/pictures: scripts/studies.sh runs all (ten
+# minutes), scripts/studies.sh NAME... some. SUPPLE=path takes another executable instead of building one. What they
 # say is in output/NAME/study.md; doc/studies.md sums it up by hand.
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
