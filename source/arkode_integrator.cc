@@ -93,7 +93,7 @@ namespace Supple
     if (adaptive)
       {
         ARKStepSetMinStep(memory, shortest_step());
-        ARKStepSetMaxStep(memory, settings.longest_step);
+        ARKStepSetMaxStep(memory, longest_step());
         ARKStepSetMaxFirstGrowth(memory, 10.); // not 10000: the first step was not a guess
       }
     else
@@ -167,6 +167,18 @@ namespace Supple
     if (status != 0)
       throw_what_failed();
     check_stability();
+  }
+
+
+  /** Beyond the stable step the fastest oscillations grow, and with them what the relative
+   * tolerance allows: an explicit method with a loose one would follow them to any height. */
+  double
+  ArkodeIntegrator::longest_step() const
+  {
+    const double wanted = settings.longest_step; // 0: any
+    if (!stable)
+      return wanted;
+    return wanted > 0. ? std::min(wanted, stable->step) : stable->step;
   }
 
 

@@ -248,6 +248,13 @@ namespace Supple
     complete(time, y);
     if (rotations == Rotations::following)
       model.body.update_rotations(displacement, model.effort);
+    relinearize();
+  }
+
+
+  void
+  EquationOfMotion::relinearize()
+  {
     try
       {
         assemble();

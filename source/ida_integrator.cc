@@ -6,6 +6,13 @@
 
 namespace Supple
 {
+  namespace
+  {
+    /** Steps that one operator serves at most, as in ARKode. */
+    constexpr long longest_use = 20;
+  } // namespace
+
+
   IdaIntegrator::IdaIntegrator(const Model &model)
     : DynamicIntegrator(model,
                         EquationOfMotion::Rotations::following,
@@ -83,6 +90,7 @@ namespace Supple
     // With c = 1/gamma:  c x_u - x_q = b_u,  K' x_u + (c M + D) x_q = b_q.
     system.solve = [this](double *x, const double *b) {
       return failure.guard([&] {
+        keep_up_to_date();
         for (unsigned int i = 0; i < equation.n_unknowns(); ++i)
           work_space[i] = equation.current_gamma() * b[i];
         equation.solve_newton(x, work_space.data());
@@ -101,9 +109,28 @@ namespace Supple
                    N_Vector,
                    N_Vector) {
                   auto &integrator = *static_cast<IdaIntegrator *>(self);
+                  IDAGetNumSteps(integrator.memory, &integrator.linearized_at);
                   return integrator.failure.guard(
                     [&] { integrator.equation.linearize(time, Sundials::data(y), 1. / c); });
                 });
+  }
+
+
+  /**
+   * IDA has the operator assembled anew when the step changes or Newton's method fails, and judges
+   * by what it converged like then. Over many steps of one length a body turns so far that one
+   * correction leaves more of an error than the prediction of the next step can bear: it grows from
+   * step to step.
+   */
+  void
+  IdaIntegrator::keep_up_to_date()
+  {
+    long n_steps = 0;
+    IDAGetNumSteps(memory, &n_steps);
+    if (model.body.rotation == RotationMethod::none || n_steps < linearized_at + longest_use)
+      return;
+    equation.relinearize();
+    linearized_at = n_steps;
   }
 
 

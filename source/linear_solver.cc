@@ -199,7 +199,7 @@ namespace Supple
 
     if (!all_finite(b))
       throw ComputationError("the forces are not finite numbers");
-    if (b.l2_norm() == 0.)
+    if (b.l2_norm() < 1e-100) // squares of smaller numbers are lost in conjugate gradients
       {
         x = 0.;
         return 0;

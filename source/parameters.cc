@@ -418,7 +418,8 @@ namespace Supple
         longest_step,
         "s",
         Range::at_least(0),
-        "Variable steps: no step is longer. 0: any.");
+        "Variable steps: no step is longer. 0: any. Those of explicit methods are "
+        "never longer than the stable step.");
     add(
       prm,
       "Maximum order",

@@ -64,6 +64,10 @@ namespace Supple
     void
     check_stability() const;
 
+    /** Of variable steps [s]; 0 if any. */
+    double
+    longest_step() const;
+
     void
     set_linear_systems();
 

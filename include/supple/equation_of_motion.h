@@ -92,6 +92,11 @@ namespace Supple
     void
     full_damping_product(Vector &y, const Vector &x);
 
+    /** Prepares solve() for the same gamma at the state of the last evaluate(). @throws
+     * ComputationError */
+    void
+    relinearize();
+
     /** Prepares solve() for another gamma at the state of the last linearize(). */
     void
     set_gamma(double gamma);

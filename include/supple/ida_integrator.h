@@ -41,6 +41,10 @@ namespace Supple
     void
     set_linear_system();
 
+    /** Assembles the operator anew where it has served many steps. @throws ComputationError */
+    void
+    keep_up_to_date();
+
     /** F(t, y, y') */
     void
     residual(double time, const double *y, const double *rate, double *F);
@@ -59,6 +63,7 @@ namespace Supple
     void *memory           = nullptr;
     bool started           = false;
     long newton_iterations = 0;
+    long linearized_at     = 0; ///< the step in which the operator was assembled
   };
 } // namespace Supple
 

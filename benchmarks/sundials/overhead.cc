@@ -1,0 +1,216 @@
+// Microseconds a step of backward Euler with the rotations frozen in each step, without output: by
+// a bare loop over the same forces, matrix and solver, and by the program's integrator, which is
+// SUNDIALS's. They take turns, so that a busy machine is busy for both.
+//
+//   overhead SCENE.prm [repetitions [integrator | loop]]
+
+#include <supple/time_integrator.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+namespace
+{
+  using namespace Supple;
+
+  /** All that a run has, for one of the two. */
+  struct Run
+  {
+    const Parameters parameters;
+    Effort effort;
+    const Mesh mesh;
+    const Body body;
+    const Constraints constraints;
+    const Loads loads;
+    ImplicitOperator implicit_operator;
+    const std::unique_ptr<LinearSolver> solver;
+    State state;
+
+    explicit Run(const std::string &scene)
+      : parameters(Parameters::read(scene))
+      , mesh(parameters, MPI_COMM_WORLD)
+      , body(mesh, parameters)
+      , constraints(body, parameters)
+      , loads(body, parameters)
+      , implicit_operator(body, constraints, parameters, effort)
+      , solver(LinearSolver::create(implicit_operator, parameters, effort))
+      , state(2)
+    {
+      if (parameters.damping.any() || constraints.move() || loads.follow() ||
+          parameters.time.method != TimeParameters::Method::backward_euler)
+        throw std::runtime_error(
+          "the bare loop knows backward Euler without damping, motions and pressure");
+      for (unsigned int b = 0; b < 2; ++b)
+        body.initialize(state.block(b));
+      state.collect_sizes();
+      const Expression velocity(parameters.start.velocity, 3, "Start/Velocity");
+      for (unsigned int node = 0; node < body.n_owned; ++node)
+        for (unsigned int i = 0; i < 3; ++i)
+          state.block(1).local_element(3 * node + i) = velocity.value(body.position(node), 0., i);
+      constraints.set_zero(state.block(1));
+      body.update_rotations(state.block(0), effort);
+    }
+
+    virtual ~Run() = default;
+
+    virtual void
+    step() = 0;
+
+    /** [us] a step, and phase by phase. */
+    std::vector<double>
+    measure()
+    {
+      effort                     = Effort();
+      const unsigned int n_steps = parameters.time.n_steps;
+      const auto start           = std::chrono::steady_clock::now();
+      for (unsigned int k = 0; k < n_steps; ++k)
+        step();
+      const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+      std::vector<double> result                  = {1e6 * seconds.count() / n_steps};
+      for (const double phase : effort.seconds)
+        result.push_back(1e6 * phase / n_steps);
+      return result;
+    }
+  };
+
+
+  /** (M + dt^2 K') (v1 - v0) = dt (f - f_int(u0 + dt v0)),  u1 = u0 + dt v1 */
+  struct BareLoop : Run
+  {
+    double time      = 0.;
+    bool is_prepared = false;
+    Vector force, increment, moved;
+
+    explicit BareLoop(const std::string &scene)
+      : Run(scene)
+    {
+      for (Vector *vector : {&force, &increment, &moved})
+        body.initialize(*vector);
+    }
+
+    void
+    step() override
+    {
+      const double dt = parameters.time.step;
+      Vector &u = state.block(0), &v = state.block(1);
+      if (!is_prepared || body.rotation != RotationMethod::none)
+        {
+          implicit_operator.assemble(dt);
+          solver->prepare(u);
+          is_prepared = true;
+        }
+      moved = u;
+      moved.add(dt, v);
+      time += dt;
+      body.internal_force(force, moved, effort);
+      force.sadd(-dt, dt, loads.force(time, u));
+      constraints.set_zero(force);
+      solver->solve(increment, force);
+      v += increment;
+      u.add(dt, v);
+      body.update_rotations(u, effort);
+    }
+  };
+
+
+  struct ByIntegrator : Run
+  {
+    const std::unique_ptr<TimeIntegrator> integrator;
+
+    explicit ByIntegrator(const std::string &scene)
+      : Run(scene)
+      , integrator(TimeIntegrator::create(
+          {body, constraints, loads, implicit_operator, *solver, parameters, effort},
+          state.block(0)))
+    {
+    }
+
+    void
+    step() override
+    {
+      integrator->advance(state, false);
+    }
+  };
+
+
+  /** Of several runs of the steps, the one with the median time. */
+  std::vector<double>
+  median(std::vector<std::vector<double>> measured)
+  {
+    std::sort(measured.begin(), measured.end());
+    return measured[measured.size() / 2];
+  }
+
+
+  void
+  print(const char *name, const std::vector<double> &values)
+  {
+    std::printf("| %s |", name);
+    double rest = values[0];
+    for (std::size_t i = 1; i < 6; ++i)
+      rest -= values[i];
+    for (std::size_t i = 0; i < 6; ++i)
+      std::printf(" %.1f |", values[i]);
+    std::printf(" %.1f |\n", rest);
+  }
+
+
+  void
+  compare(const std::string &scene, const unsigned int n_repetitions, const std::string &which)
+  {
+    BareLoop loop(scene);
+    ByIntegrator integrator(scene);
+    std::vector<std::vector<double>> by_loop, by_integrator;
+    for (unsigned int k = 0; k < n_repetitions; ++k)
+      {
+        if (which != "integrator")
+          by_loop.push_back(loop.measure());
+        if (which != "loop")
+          by_integrator.push_back(integrator.measure());
+      }
+    if (!which.empty())
+      return;
+    std::printf(
+      "| %u cells | us a step | rotations | forces | assembly | factorization | solution | rest |\n"
+      "|---|---|---|---|---|---|---|---|\n",
+      loop.mesh.n_cells);
+    print("bare loop", median(by_loop));
+    print("SUNDIALS", median(by_integrator));
+    std::vector<double> differences;
+    for (unsigned int k = 0; k < n_repetitions; ++k)
+      differences.push_back(by_integrator[k][0] - by_loop[k][0]);
+    std::sort(differences.begin(), differences.end());
+    std::printf(
+      "\nmore: %.1f us a step (median of %u; a quarter is below %.1f, a quarter above %.1f); ",
+      differences[n_repetitions / 2],
+      n_repetitions,
+      differences[n_repetitions / 4],
+      differences[3 * n_repetitions / 4]);
+    std::printf("apart: %.1e m\n",
+                largest_vertex_distance(loop.state.block(0), integrator.state.block(0)));
+  }
+} // namespace
+
+
+int
+main(int argc, char **argv)
+{
+  int n_names = 1;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, argv, 1);
+  if (argc < 2)
+    {
+      std::fprintf(stderr, "usage: %s SCENE.prm [repetitions [integrator | loop]]\n", argv[0]);
+      return 1;
+    }
+  try
+    {
+      compare(argv[1], argc > 2 ? std::stoul(argv[2]) : 21, argc > 3 ? argv[3] : "");
+    }
+  catch (const std::exception &error)
+    {
+      std::fprintf(stderr, "%s\n", error.what());
+      return 1;
+    }
+}
