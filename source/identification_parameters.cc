@@ -16,17 +16,17 @@ namespace Supple
 
   namespace
   {
-    const std::string section = "Identification";
-    constexpr int any_number  = dealii::Patterns::List::max_int_value;
+    const std::string section     = "Identification";
+    const unsigned int any_number = dealii::Patterns::List::max_int_value;
 
 
     RangeList
-    positive_numbers(const std::string &what, const unsigned int least)
+    positive_numbers()
     {
       const Range positive = Range::between(0, infinity);
-      return {what + " set apart by commas, each " + positive.description(),
+      return {"numbers set apart by commas, each " + positive.description() + ", or nothing",
               positive,
-              least,
+              0,
               any_number};
     }
   } // namespace
@@ -64,7 +64,7 @@ namespace Supple
         "Start depths",
         start_depths,
         "that of Unit",
-        positive_numbers("numbers", 0),
+        positive_numbers(),
         "With Depth correction = thesis: a depth for each set.");
     add_choice(prm,
                "Error",
@@ -145,13 +145,13 @@ namespace Supple
         "Thicknesses",
         thicknesses,
         "that of Unit",
-        positive_numbers("numbers", 1),
+        positive_numbers(),
         "Of the upper layer; the lower one is the rest. The outer loop of the grid.");
     add(prm,
         "Elasticity ratios",
         ratios,
         "none",
-        positive_numbers("numbers", 1),
+        positive_numbers(),
         "Young modulus of the upper layer over that of the lower one, which is changed.");
     declare_comparison(prm);
     declare_fit(prm);

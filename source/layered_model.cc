@@ -31,6 +31,7 @@ namespace Supple
       list.insert(list.end(),
                   identification.command_line.begin(),
                   identification.command_line.end());
+      list.push_back({"Time/Steps=1", identification.place("Scene")}); // it is linear
       return list;
     }
   } // namespace
@@ -40,6 +41,12 @@ namespace Supple
                              const MPI_Comm communicator)
     : base(Parameters::read(identification.path(identification.scene),
                             scene_overrides(identification)))
+    , height(base.mesh.height_and_rows().first)
+    , lower_poisson([&] {
+      const auto materials = base.material.exceptions(base.origin("Material/By id"));
+      const auto lower     = materials.find(1);
+      return lower == materials.end() ? base.material.poisson : lower->second.poisson();
+    }())
     , identification(identification)
     , communicator(communicator)
   {
@@ -86,7 +93,11 @@ namespace Supple
     if (base.material.constants != MaterialParameters::Constants::young_poisson)
       throw InputError(base.origin("Material/Constants") +
                        ": an identification needs Young modulus and Poisson ratio.");
-    const double height = base.mesh.height_and_rows().first;
+    const std::string here = base.origin("Material/By id");
+    const auto exceptions  = base.material.exceptions(here);
+    if (exceptions.count(0) > 0)
+      throw InputError(here + ": in an identification the upper layer, id 0, has the modulus of " +
+                       "Material/Young modulus.");
     for (const double thickness : identification.thicknesses)
       if (thickness * identification.unit_length() >= height)
         throw InputError(identification.place("Thicknesses") + ": the upper layer of " +
@@ -112,30 +123,34 @@ namespace Supple
   }
 
 
+  std::pair<std::string, std::string>
+  LayeredModel::layers(const LayerPair &pair) const
+  {
+    return {exact_text(pair.thickness) + ", " + exact_text(height - pair.thickness),
+            "1: " + exact_text(base.material.young / pair.ratio) + ", " +
+              exact_text(lower_poisson) + ", " + exact_text(base.material.density)};
+  }
+
+
+  Parameters
+  LayeredModel::read_scene(const LayerPair &pair) const
+  {
+    const auto [thicknesses, lower] = layers(pair);
+    std::vector<Override> overrides = scene_overrides(identification);
+    overrides.push_back({"Mesh/Layers=" + thicknesses, identification.place("Thicknesses")});
+    overrides.push_back({"Material/By id=" + lower, identification.place("Elasticity ratios")});
+    return Parameters::read(identification.path(identification.scene), overrides);
+  }
+
+
+  /** Without reading it anew, which takes longer than the solution of a small body. */
   Parameters
   LayeredModel::scene(const LayerPair &pair) const
   {
-    const std::string here = base.origin("Material/By id");
-    const auto exceptions  = base.material.exceptions(here);
-    const auto below       = exceptions.find(1);
-    double young = base.material.young, poisson = base.material.poisson;
-    if (const auto above = exceptions.find(0); above != exceptions.end())
-      throw InputError(here +
-                       ": in an identification the upper layer, id 0, has the modulus of "
-                       "Material/Young modulus.");
-    if (below != exceptions.end())
-      poisson = below->second.poisson();
-
-    const double height     = base.mesh.height_and_rows().first;
-    std::vector<Override> o = scene_overrides(identification);
-    o.push_back(
-      {"Mesh/Layers=" + exact_text(pair.thickness) + ", " + exact_text(height - pair.thickness),
-       identification.place("Thicknesses")});
-    o.push_back({"Material/By id=1: " + exact_text(young / pair.ratio) + ", " +
-                   exact_text(poisson) + ", " + exact_text(base.material.density),
-                 identification.place("Elasticity ratios")});
-    o.push_back({"Time/Steps=1", identification.place("Scene")});
-    return Parameters::read(identification.path(identification.scene), o);
+    Parameters parameters           = base;
+    parameters.mesh.material_layers = {pair.thickness, height - pair.thickness};
+    parameters.material.by_id       = layers(pair).second;
+    return parameters;
   }
 
 
@@ -167,8 +182,7 @@ namespace Supple
   SurfaceResponse
   LayeredModel::surface(const LayerPair &pair) const
   {
-    const Parameters parameters = scene(pair);
-    Simulation simulation(parameters, "", true, communicator);
+    Simulation simulation(scene(pair), "", true, communicator);
     simulation.advance();
     auto line = line_of(
       dealii::Utilities::MPI::broadcast(communicator, simulation.profile(identification.profile)));
@@ -196,7 +210,7 @@ namespace Supple
   void
   LayeredModel::check(const LayerPair &pair, const std::vector<MeasuredSet> &sets) const
   {
-    const Simulation simulation(scene(pair), "", true, communicator);
+    const Simulation simulation(read_scene(pair), "", true, communicator);
     const auto line = line_of(
       dealii::Utilities::MPI::broadcast(communicator, simulation.profile(identification.profile)));
     if (line.empty())

@@ -42,7 +42,15 @@ namespace Supple
     const Parameters base;
 
   private:
-    /** The scene with this pair. */
+    /** Thicknesses of the layers, and the material of the lower one, as a scene has them. */
+    std::pair<std::string, std::string>
+    layers(const LayerPair &pair) const;
+
+    /** The scene with this pair, read and checked. @throws InputError */
+    Parameters
+    read_scene(const LayerPair &pair) const;
+
+    /** The same, unchecked. */
     Parameters
     scene(const LayerPair &pair) const;
 
@@ -59,6 +67,8 @@ namespace Supple
     std::vector<SurfaceResponse::Vertex>
     line_of(const std::vector<std::vector<double>> &rows) const;
 
+    const double height; ///< of the body [m]
+    const double lower_poisson;
     const IdentificationParameters &identification;
     const MPI_Comm communicator;
   };
