@@ -41,12 +41,6 @@ namespace Supple
                              const MPI_Comm communicator)
     : base(Parameters::read(identification.path(identification.scene),
                             scene_overrides(identification)))
-    , height(base.mesh.height_and_rows().first)
-    , lower_poisson([&] {
-      const auto materials = base.material.exceptions(base.origin("Material/By id"));
-      const auto lower     = materials.find(1);
-      return lower == materials.end() ? base.material.poisson : lower->second.poisson();
-    }())
     , identification(identification)
     , communicator(communicator)
   {
@@ -99,10 +93,10 @@ namespace Supple
       throw InputError(here + ": in an identification the upper layer, id 0, has the modulus of " +
                        "Material/Young modulus.");
     for (const double thickness : identification.thicknesses)
-      if (thickness * identification.unit_length() >= height)
+      if (thickness * identification.unit_length() >= height())
         throw InputError(identification.place("Thicknesses") + ": the upper layer of " +
                          exact_text(thickness) + " " + identification.unit_name() +
-                         " leaves nothing for the lower one; the body is " + exact_text(height) +
+                         " leaves nothing for the lower one; the body is " + exact_text(height()) +
                          " m high.");
     if (identification.fit && base.mesh.layer_rows.size() != 2)
       throw InputError(identification.place("Fit") +
@@ -126,7 +120,11 @@ namespace Supple
   std::pair<std::string, std::string>
   LayeredModel::layers(const LayerPair &pair) const
   {
-    return {exact_text(pair.thickness) + ", " + exact_text(height - pair.thickness),
+    const auto materials = base.material.exceptions(base.origin("Material/By id"));
+    const auto lower     = materials.find(1);
+    const double lower_poisson =
+      lower == materials.end() ? base.material.poisson : lower->second.poisson();
+    return {exact_text(pair.thickness) + ", " + exact_text(height() - pair.thickness),
             "1: " + exact_text(base.material.young / pair.ratio) + ", " +
               exact_text(lower_poisson) + ", " + exact_text(base.material.density)};
   }
@@ -148,7 +146,7 @@ namespace Supple
   LayeredModel::scene(const LayerPair &pair) const
   {
     Parameters parameters           = base;
-    parameters.mesh.material_layers = {pair.thickness, height - pair.thickness};
+    parameters.mesh.material_layers = {pair.thickness, height() - pair.thickness};
     parameters.material.by_id       = layers(pair).second;
     return parameters;
   }

@@ -54,6 +54,13 @@ namespace Supple
     Parameters
     scene(const LayerPair &pair) const;
 
+    /** Of the body [m]. */
+    double
+    height() const
+    {
+      return base.mesh.height_and_rows().first;
+    }
+
     void
     check_linear() const;
 
@@ -67,8 +74,6 @@ namespace Supple
     std::vector<SurfaceResponse::Vertex>
     line_of(const std::vector<std::vector<double>> &rows) const;
 
-    const double height; ///< of the body [m]
-    const double lower_poisson;
     const IdentificationParameters &identification;
     const MPI_Comm communicator;
   };
