@@ -16,6 +16,7 @@ namespace Supple
            "name)\n"
            "    --quiet                         say nothing but errors\n"
            "  supple STUDY.prm                  run many variants of a scene and compare them\n"
+           "  supple IDENTIFICATION.prm         fit two layers of skin to measurements\n"
            "  supple --check SCENE.prm          parse, build the mesh, validate, run nothing\n"
            "  supple --print-parameters [prm|json]\n"
            "                                    every entry with its default, unit, range and "

@@ -4,11 +4,13 @@
  *   .prm -> Parameters -> Mesh -> Body -> ImplicitOperator -> TimeIntegrator -> Diagnostics ->
  * Frames, CSV, summary
  *
- * and Study -> many of these -> tables and plots of error against run time.
+ * and Study -> many of these -> tables and plots of error against run time,
+ * Identification -> many of these -> the layers of skin that fit to measurements.
  */
 
 #include <supple/command_line.h>
 #include <supple/error.h>
+#include <supple/identification.h>
 #include <supple/simulation.h>
 #include <supple/study.h>
 
@@ -48,6 +50,20 @@ namespace
 
 
   void
+  execute_identification(const Supple::CommandLine &line)
+  {
+    const auto parameters = Supple::IdentificationParameters::read(line.scene, line.overrides);
+    const auto folder =
+      line.output.empty() ? Supple::Identification::output_folder(parameters) : line.output;
+    Supple::Identification identification(parameters, folder, line.quiet, MPI_COMM_WORLD);
+    if (line.action == Supple::CommandLine::Action::run)
+      identification.run();
+    else
+      identification.check();
+  }
+
+
+  void
   execute(const Supple::CommandLine &line, const bool root)
   {
     using Action = Supple::CommandLine::Action;
@@ -69,6 +85,8 @@ namespace
         case Action::run:
           if (Supple::StudyParameters::is_study(line.scene))
             execute_study(line);
+          else if (Supple::IdentificationParameters::is_identification(line.scene))
+            execute_identification(line);
           else
             execute_scene(line);
       }

@@ -80,29 +80,66 @@ namespace Supple
                              extent_in_words(box_around(mesh), mesh.dimension) + " m.");
         }
     }
+
+
+    SerialMesh
+    mesh_as_shaped(const Parameters &parameters)
+    {
+      switch (parameters.mesh.shape)
+        {
+          case MeshParameters::Shape::box:
+            return box_mesh(parameters.mesh);
+          case MeshParameters::Shape::hollow_cylinder:
+            return hollow_cylinder_mesh(parameters.mesh);
+          case MeshParameters::Shape::rectangle:
+            return rectangle_mesh(parameters.mesh);
+          default:
+            {
+              const auto file =
+                std::filesystem::path(parameters.scene_folder) / parameters.mesh.file;
+              SerialMesh mesh = read_mesh(file.string(), parameters.origin("Mesh/File"));
+              for (auto &vertex : mesh.vertices)
+                vertex *= parameters.mesh.scale;
+              return mesh;
+            }
+        }
+    }
+
+
+    /** @throws InputError if a cell is turned inside out by it */
+    void
+    place_vertices(SerialMesh &mesh, const Parameters &parameters)
+    {
+      const std::string origin = parameters.origin("Mesh/Placement");
+      const Expression placement(parameters.mesh.placement, 3, origin);
+      std::vector<double> volumes(mesh.cells.size());
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        volumes[c] = mesh.volume(c);
+      for (auto &vertex : mesh.vertices)
+        {
+          const Point<3> from = vertex;
+          for (unsigned int d = 0; d < 3; ++d)
+            vertex[d] = placement.value(from, 0., d);
+        }
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        if (!(mesh.volume(c) * volumes[c] > 0.))
+          {
+            std::ostringstream text;
+            text << origin << ": it turns cell " << c << " at (" << mesh.vertices[mesh.cells[c][0]]
+                 << ") inside out or flat.";
+            throw InputError(text.str());
+          }
+    }
   } // namespace
 
 
   SerialMesh
   make_serial_mesh(const Parameters &parameters)
   {
-    switch (parameters.mesh.shape)
-      {
-        case MeshParameters::Shape::box:
-          return box_mesh(parameters.mesh);
-        case MeshParameters::Shape::hollow_cylinder:
-          return hollow_cylinder_mesh(parameters.mesh);
-        case MeshParameters::Shape::rectangle:
-          return rectangle_mesh(parameters.mesh);
-        default:
-          {
-            const auto file = std::filesystem::path(parameters.scene_folder) / parameters.mesh.file;
-            SerialMesh mesh = read_mesh(file.string(), parameters.origin("Mesh/File"));
-            for (auto &vertex : mesh.vertices)
-              vertex *= parameters.mesh.scale;
-            return mesh;
-          }
-      }
+    SerialMesh mesh = mesh_as_shaped(parameters);
+    if (parameters.mesh.placement != MeshParameters().placement)
+      place_vertices(mesh, parameters);
+    return mesh;
   }
 
 

@@ -41,12 +41,13 @@ namespace Supple
     const std::array<unsigned int, 3> &n     = parameters.cubes;
     const std::array<unsigned int, 3> stride = {{1, n[0] + 1, (n[0] + 1) * (n[1] + 1)}};
     const std::vector<unsigned int> material = parameters.material_of_rows();
+    const std::vector<double> ends           = parameters.ends_of_rows();
 
     for (unsigned int k = 0; k <= n[2]; ++k)
       for (unsigned int j = 0; j <= n[1]; ++j)
         for (unsigned int i = 0; i <= n[0]; ++i)
           mesh.vertices.emplace_back(parameters.origin[0] + parameters.size[0] * i / n[0],
-                                     parameters.origin[1] + parameters.size[1] * j / n[1],
+                                     parameters.origin[1] + ends[j],
                                      parameters.origin[2] + parameters.size[2] * k / n[2]);
 
     // Corner c of a cube lies at its 0/1-coordinates (c & 1, c & 2, c & 4).
@@ -98,13 +99,13 @@ namespace Supple
     mesh.dimension                           = 2;
     const std::array<unsigned int, 2> &n     = parameters.squares;
     const std::vector<unsigned int> material = parameters.material_of_rows();
+    const std::vector<double> ends           = parameters.ends_of_rows();
 
     for (unsigned int j = 0; j <= n[1]; ++j)
       for (unsigned int i = 0; i <= n[0]; ++i)
         mesh.vertices.emplace_back(parameters.rectangle_origin[0] +
                                      parameters.rectangle_size[0] * i / n[0],
-                                   parameters.rectangle_origin[1] +
-                                     parameters.rectangle_size[1] * j / n[1],
+                                   parameters.rectangle_origin[1] + ends[j],
                                    0.);
 
     constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;

@@ -3,6 +3,7 @@
 #include <supple/parameters.h>
 
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace Supple
@@ -154,6 +155,25 @@ namespace Supple
       "Layers of a box or a rectangle from the top, the largest y, downward: their cells have the "
       "material ids 0, 1, ... Together they are as thick as the body, and each ends where a row "
       "of cubes or squares does. Empty: all cells have the material id 0.");
+    add(prm,
+        "Layer rows",
+        layer_rows,
+        "none",
+        RangeList("whole numbers set apart by commas, each " +
+                    Range::whole_number(1).description() + ", or nothing",
+                  Range::whole_number(1),
+                  0,
+                  dealii::Patterns::List::max_int_value),
+        "How many of the rows of cubes or squares each of the Layers has, from the top downward; "
+        "in a layer they are equally high, so that it may end anywhere. Empty: all rows are.");
+    prm.add_parameter(
+      "Placement",
+      placement,
+      "Where the vertex at x, y, z of a box, a cylinder, a rectangle or a file is put, such as "
+      "x*(0.2 + 0.8*(x/0.006)^2); y; z for small cells in the middle. Layers, and boundary ids of "
+      "shapes, are found before; all else speaks of the new places. Unit: m. Range: " +
+        Range::expressions(3).description(dealii::Patterns::PatternBase::Text) + ".",
+      Range::expressions(3));
     declare_file(prm);
     prm.leave_subsection();
   }
@@ -167,17 +187,42 @@ namespace Supple
   }
 
 
+  std::vector<double>
+  MeshParameters::ends_of_rows() const
+  {
+    const auto [height, n_rows] = height_and_rows();
+    std::vector<double> ends(n_rows + 1);
+    if (layer_rows.empty())
+      for (unsigned int row = 0; row <= n_rows; ++row)
+        ends[row] = height * row / n_rows;
+    else
+      {
+        unsigned int row = n_rows;
+        double top       = height;
+        for (unsigned int layer = 0; layer < layer_rows.size(); ++layer)
+          {
+            for (unsigned int r = 0; r < layer_rows[layer]; ++r)
+              ends[row - r] = top - material_layers[layer] * r / layer_rows[layer];
+            row -= layer_rows[layer];
+            top -= material_layers[layer];
+          }
+        ends[0] = 0.;
+      }
+    return ends;
+  }
+
+
   std::vector<unsigned int>
   MeshParameters::material_of_rows() const
   {
-    const auto [height, n_rows] = height_and_rows();
-    std::vector<unsigned int> material(n_rows);
-    double bottom = height;
+    const std::vector<double> ends = ends_of_rows();
+    std::vector<unsigned int> material(ends.size() - 1);
+    double bottom = ends.back();
     for (unsigned int layer = 0; layer < material_layers.size(); ++layer)
       {
         bottom -= material_layers[layer];
-        for (unsigned int row = 0; row < n_rows; ++row)
-          if ((row + 0.5) * height / n_rows < bottom)
+        for (unsigned int row = 0; row < material.size(); ++row)
+          if (0.5 * (ends[row] + ends[row + 1]) < bottom)
             material[row] = layer + 1;
       }
     return material;
@@ -201,9 +246,10 @@ namespace Supple
       {
         depth += thickness;
         const double rows = depth / height * n_rows;
-        if (std::abs(rows - std::round(rows)) > 1e-6 && text.str().empty())
+        if (std::abs(rows - std::round(rows)) > 1e-6 && layer_rows.empty() && text.str().empty())
           text << ": a layer ends " << depth << " m below the top, which is not where a row ends; "
-               << "the rows are " << height / n_rows << " m high.";
+               << "the rows are " << height / n_rows
+               << " m high. Mesh/Layer rows lets it end anywhere.";
       }
     if (std::abs(depth / height - 1.) > 1e-6)
       {
@@ -213,6 +259,24 @@ namespace Supple
       }
     if (!text.str().empty())
       throw InputError(origin + text.str());
+  }
+
+
+  void
+  MeshParameters::check_layer_rows(const Parameters &parameters) const
+  {
+    if (layer_rows.empty())
+      return;
+    const std::string origin = parameters.origin("Mesh/Layer rows");
+    if (layer_rows.size() != material_layers.size())
+      throw InputError(origin + ": found " + std::to_string(layer_rows.size()) + " number(s) for " +
+                       std::to_string(material_layers.size()) + " layer(s) (Mesh/Layers); there " +
+                       "must be one for each.");
+    const double total        = std::accumulate(layer_rows.begin(), layer_rows.end(), 0.);
+    const unsigned int n_rows = height_and_rows().second;
+    if (total != n_rows)
+      throw InputError(origin + ": these are " + std::to_string(std::lround(total)) +
+                       " rows together, but the body has " + std::to_string(n_rows) + " along y.");
   }
 
 
@@ -248,6 +312,7 @@ namespace Supple
     if (shape == Shape::file && file.empty())
       throw InputError(parameters.origin("Mesh/File") + ": Shape = file needs a mesh file.");
     check_layers(parameters);
+    check_layer_rows(parameters);
   }
 
 

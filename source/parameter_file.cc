@@ -1,4 +1,5 @@
 #include <supple/error.h>
+#include <supple/identification_parameters.h>
 #include <supple/parameter_file.h>
 #include <supple/parameters.h>
 #include <supple/study_parameters.h>
@@ -106,6 +107,22 @@ namespace Supple
   ParameterFile::sections() const
   {
     return find_lines(file, text).sections;
+  }
+
+
+  bool
+  ParameterFile::has_alone(const std::string &file, const std::string &section)
+  {
+    const auto all = ParameterFile(file).sections();
+    if (all.count(section) == 0)
+      return false;
+    for (const auto &[name, place] : all)
+      if (name != section)
+        throw InputError(place + ": subsection " + name + " beside " + section +
+                         ", which stands alone in its file. It belongs into the scene that " +
+                         section + "/Scene names; " + section +
+                         "/Overrides changes entries of that.");
+    return true;
   }
 
 
@@ -247,24 +264,32 @@ namespace Supple
   {
     Parameters parameters;
     StudyParameters study;
-    ParameterHandler scene_entries, study_entries;
+    IdentificationParameters identification;
+    ParameterHandler scene_entries, study_entries, identification_entries;
     parameters.declare(scene_entries);
     study.declare(study_entries);
+    identification.declare(identification_entries);
     if (format == "json")
       {
         study.declare(scene_entries);
+        identification.declare(scene_entries);
         scene_entries.print_parameters(out, ParameterHandler::JSON);
         return;
       }
     scene_entries.print_parameters(out, ParameterHandler::PRM);
 
     // What is printed stays a scene.
-    out << "\n# A study is a file of its own, with this subsection alone:\n";
-    std::stringstream text;
-    study_entries.print_parameters(text, ParameterHandler::PRM);
-    std::string line;
-    while (std::getline(text, line))
-      out << (line.empty() ? "" : "# ") << line << '\n';
+    const std::vector<std::pair<std::string, ParameterHandler *>> others = {
+      {"A study", &study_entries}, {"An identification", &identification_entries}};
+    for (const auto &[name, entries] : others)
+      {
+        out << "\n# " << name << " is a file of its own, with this subsection alone:\n";
+        std::stringstream text;
+        entries->print_parameters(text, ParameterHandler::PRM);
+        std::string line;
+        while (std::getline(text, line))
+          out << (line.empty() ? "" : "# ") << line << '\n';
+      }
   }
 
 

@@ -37,6 +37,16 @@ namespace Supple
   }
 
 
+  unsigned int
+  Profiles::number(const std::string &name) const
+  {
+    const auto found = std::find_if(profiles.begin(), profiles.end(), [&](const Profile &profile) {
+      return profile.name == name;
+    });
+    return found - profiles.begin();
+  }
+
+
   double
   Profiles::distance(const Point<3> &point) const
   {

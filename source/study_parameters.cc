@@ -29,15 +29,7 @@ namespace Supple
   bool
   StudyParameters::is_study(const std::string &file)
   {
-    const auto sections = ParameterFile(file).sections();
-    if (sections.count(section) == 0)
-      return false;
-    for (const auto &[name, place] : sections)
-      if (name != section)
-        throw InputError(place + ": subsection " + name +
-                         " in a study, which has subsection Study only. It belongs into the scene "
-                         "that Study/Scene names; Study/Overrides changes entries of that.");
-    return true;
+    return ParameterFile::has_alone(file, section);
   }
 
 

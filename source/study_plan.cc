@@ -48,17 +48,6 @@ namespace Supple
     }
 
 
-    std::vector<Override>
-    override_list(const std::string &text, const std::string &place)
-    {
-      std::vector<Override> list;
-      for (const std::string &part : split(text, '|'))
-        if (!trim(part).empty())
-          list.push_back({trim(part), place});
-      return list;
-    }
-
-
     void
     append(std::vector<Override> &list, const std::vector<Override> &more)
     {
@@ -76,6 +65,17 @@ namespace Supple
           throw InputError(place + ": '" + run.label() + "' is there twice.");
     }
   } // namespace
+
+
+  std::vector<Override>
+  override_list(const std::string &text, const std::string &place)
+  {
+    std::vector<Override> list;
+    for (const std::string &part : split(text, '|'))
+      if (!trim(part).empty())
+        list.push_back({trim(part), place});
+    return list;
+  }
 
 
   std::string

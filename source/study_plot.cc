@@ -1,17 +1,10 @@
+#include <supple/gnuplot.h>
 #include <supple/study_table.h>
-
 #include <supple/tables.h>
-
-#include <sys/wait.h>
-
-#include <spawn.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-
-extern char **environ; // POSIX declares it in no header
 
 namespace Supple
 {
@@ -49,16 +42,6 @@ namespace Supple
           curves.back().points.emplace_back(x(row), row.error());
         }
       return curves;
-    }
-
-
-    std::string
-    quoted(const std::string &text)
-    {
-      std::string result = "\"";
-      for (const char c : text)
-        result += (c == '"' || c == '\\') ? std::string("\\") + c : std::string(1, c);
-      return result + "\"";
     }
 
 
@@ -141,30 +124,6 @@ namespace Supple
              "set terminal pngcairo size 1100,700 font \"Helvetica,13\"\n" +
              "set output folder.\"" + plot.file + ".png\"\nreplot\n";
     }
-
-
-    /** Runs a program without a word. @return its exit status, or -1 if it is not there */
-    int
-    execute(const std::vector<std::string> &command)
-    {
-      std::vector<char *> words;
-      for (const std::string &word : command)
-        words.push_back(const_cast<char *>(word.c_str()));
-      words.push_back(nullptr);
-
-      posix_spawn_file_actions_t actions;
-      posix_spawn_file_actions_init(&actions);
-      posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", 1, 0);
-      posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", 1, 0);
-      pid_t process;
-      const int problem =
-        posix_spawnp(&process, words[0], &actions, nullptr, words.data(), environ);
-      posix_spawn_file_actions_destroy(&actions);
-      int status = 0;
-      if (problem != 0 || waitpid(process, &status, 0) < 0)
-        return -1;
-      return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    }
   } // namespace
 
 
@@ -188,12 +147,10 @@ namespace Supple
 
     for (const Plot &plot : plots)
       {
-        const std::string script = folder + "/" + plot.file + ".gp";
-        write_whole_file(script, script_of(table, plot));
-        const int status = execute({"gnuplot", "-c", script, folder});
-        if (status != 0)
-          return (status < 0 ? "gnuplot (Debian: gnuplot-nox) is not there" : "gnuplot failed") +
-                 std::string(": no plots; ") + plot.file + ".gp draws them.";
+        write_whole_file(folder + "/" + plot.file + ".gp", script_of(table, plot));
+        const std::string problem = draw(folder, plot.file);
+        if (!problem.empty())
+          return problem;
       }
     return "";
   }

@@ -187,7 +187,7 @@ refused("Study", "Stop", Stop="1")
 both = folder / "both.prm"
 both.write_text(write("wrong", **right).read_text() + "\nsubsection Time\n  set Step = 1\nend\n")
 status, _, error = runner.run(both)
-runner.check(status == 1 and "both.prm:7: subsection Time in a study" in error and "Overrides" in error, error)
+runner.check(status == 1 and "both.prm:7: subsection Time beside Study" in error and "Overrides" in error, error)
 status, _, error = runner.run(runner.BAR, "--set", "Study/Repeats=1")
 runner.check(status == 1 and "Study" in error, error)
 

@@ -56,6 +56,14 @@ namespace Supple
     std::string
     folder() const;
 
+    /**
+     * Whether a file has a subsection that stands alone: Study or Identification, and then no
+     * other.
+     * @throws InputError if there are others beside it
+     */
+    static bool
+    has_alone(const std::string &file, const std::string &section);
+
   private:
     void
     apply(dealii::ParameterHandler &prm, const Override &override);

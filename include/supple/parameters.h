@@ -54,7 +54,9 @@ namespace Supple
     std::array<unsigned int, 2> squares{{8, 8}};
     Split split = Split::falling;
 
-    std::vector<double> material_layers; ///< thicknesses from the top (largest y) downward [m]
+    std::vector<double> material_layers;  ///< thicknesses from the top (largest y) downward [m]
+    std::vector<unsigned int> layer_rows; ///< of cubes or squares in each layer; may be empty
+    std::string placement = "x; y; z";    ///< where vertices are put, three expressions
 
     std::string file; ///< as written; relative to the folder of the scene
     double scale = 1.;
@@ -69,6 +71,15 @@ namespace Supple
     /** The material id of each row of cubes or squares along y, from the bottom. */
     std::vector<unsigned int>
     material_of_rows() const;
+
+    /** Where the rows end along y, from the bottom: one more than there are, from 0 to the height
+     * [m]. */
+    std::vector<double>
+    ends_of_rows() const;
+
+    /** Of a box or a rectangle along y, and how many cubes or squares it has there. */
+    std::pair<double, unsigned int>
+    height_and_rows() const;
 
   private:
     void
@@ -86,9 +97,8 @@ namespace Supple
     void
     check_layers(const Parameters &parameters) const;
 
-    /** Of a box or a rectangle along y, and how many cubes or squares it has there. */
-    std::pair<double, unsigned int>
-    height_and_rows() const;
+    void
+    check_layer_rows(const Parameters &parameters) const;
   };
 
 

@@ -29,6 +29,10 @@ namespace Supple
     static std::vector<std::string>
     column_names();
 
+    /** The number of a profile; as many as there are if none has this name. */
+    unsigned int
+    number(const std::string &name) const;
+
     /**
      * Rows of one profile, on the first process. Vertices of a plane body stand in the order of
      * their x at rest, others in that of their distance from the center at rest.

@@ -72,6 +72,14 @@ namespace Supple
       return state;
     }
 
+    /** The rows that profile_NAME.csv would get now, on the first process. There must be such a
+     * profile. */
+    std::vector<std::vector<double>>
+    profile(const std::string &name) const
+    {
+      return profiles.rows(profiles.number(name), step, now.time, state.block(0));
+    }
+
     /** The names of the columns of probes.csv. */
     std::vector<std::string>
     probe_columns() const

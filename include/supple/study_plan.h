@@ -39,6 +39,12 @@ namespace Supple
   };
 
 
+  /** "Section/Entry=value | Section/Entry=value", taken apart. @param place of what is wrong in it
+   */
+  std::vector<Override>
+  override_list(const std::string &text, const std::string &place);
+
+
   /** Items set apart by semicolons outside of brackets. @throws InputError */
   std::vector<StudyItem>
   study_items(const std::string &text, const std::string &place);

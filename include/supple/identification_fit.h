@@ -1,0 +1,37 @@
+#ifndef supple_identification_fit_h
+#define supple_identification_fit_h
+
+#include <supple/layered_model.h>
+
+#include <functional>
+
+namespace Supple
+{
+  /** Where a function of the pair is least, and where it is nearly so. */
+  struct FitResult
+  {
+    LayerPair pair;
+    double value;
+    LayerPair lowest, highest; ///< of all pairs whose value is within the tolerance
+    unsigned int n_values;     ///< that it took
+  };
+
+
+  /**
+   * The least value of a function by BOBYQA, and the extent of the set where it is at most 1 +
+   * tolerance times that by COBYLA (both Powell's, in NLopt), in thickness and logarithm of the
+   * ratio. Neither needs derivatives.
+   * @param start   inside the bounds
+   * @param lowest  bounds of the search
+   * @param highest
+   * @throws ComputationError
+   */
+  FitResult
+  fit_pair(const std::function<double(const LayerPair &)> &function,
+           const LayerPair &start,
+           const LayerPair &lowest,
+           const LayerPair &highest,
+           double tolerance);
+} // namespace Supple
+
+#endif

@@ -1,0 +1,102 @@
+#ifndef supple_identification_parameters_h
+#define supple_identification_parameters_h
+
+#include <supple/measurements.h>
+#include <supple/parameter_file.h>
+#include <supple/surface_response.h>
+
+#include <string>
+#include <vector>
+
+namespace Supple
+{
+  /** What an identification file says: subsection Identification, and nothing else. All lengths in
+   * it are in its unit. */
+  struct IdentificationParameters
+  {
+    enum class Unit
+    {
+      millimetre,
+      metre
+    };
+
+    /** How the errors of all sets become one number. */
+    enum class Total
+    {
+      sum,
+      maximum,
+      root_of_squares
+    };
+
+    std::string scene; ///< parameter file, as written; relative to the folder of this one
+    std::string overrides;
+    std::string profile = "skin"; ///< name of one of the scene's profiles
+    std::string measurements;     ///< CSV file, as written
+    std::vector<unsigned int> sets;
+    Unit unit = Unit::millimetre;
+
+    std::vector<double> thicknesses;
+    std::vector<double> ratios;
+    SurfaceComparison comparison;
+    std::vector<double> start_depths;
+
+    bool fit         = false;
+    Total fitted     = Total::root_of_squares;
+    double tolerance = 0.1;
+
+    std::string name;                   ///< of the file, without folder and ending
+    std::vector<Override> command_line; ///< what is set in the scene beside the overrides
+
+    /** Whether a file is an identification and not a scene. @throws InputError */
+    static bool
+    is_identification(const std::string &file);
+
+    /**
+     * Reads an identification. Overrides of its subsection change it, all others go to the scene.
+     * @throws InputError
+     */
+    static IdentificationParameters
+    read(const std::string &file, const std::vector<Override> &overrides);
+
+    void
+    declare(dealii::ParameterHandler &prm);
+
+    /** A file it names, from where the program was started. */
+    std::string
+    path(const std::string &as_written) const;
+
+    /** [m] */
+    double
+    unit_length() const;
+
+    /** "mm" or "m" */
+    std::string
+    unit_name() const;
+
+    /** The names of the totals, in their order. */
+    static std::vector<std::string>
+    total_names();
+
+    /** @throws InputError */
+    std::vector<MeasuredSet>
+    measured_sets() const;
+
+    /** Where an entry got its value, to begin a message with. */
+    std::string
+    place(const std::string &entry) const;
+
+  private:
+    void
+    declare_comparison(dealii::ParameterHandler &prm);
+
+    void
+    declare_fit(dealii::ParameterHandler &prm);
+
+    void
+    check() const;
+
+    ParameterFile file;
+  };
+} // namespace Supple
+
+#endif

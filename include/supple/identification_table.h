@@ -1,0 +1,99 @@
+#ifndef supple_identification_table_h
+#define supple_identification_table_h
+
+#include <supple/layered_model.h>
+
+#include <string>
+#include <vector>
+
+namespace Supple
+{
+  /** What was found for a pair. */
+  struct PairErrors
+  {
+    LayerPair pair;
+    std::vector<double> needle_depths; ///< of each set [m]
+    std::vector<double> errors;        ///< of each set [m]
+
+    double
+    total(IdentificationParameters::Total how) const;
+  };
+
+
+  /** A pair of least error, and how far others of nearly the same error reach. */
+  struct FittedPair
+  {
+    std::string of; ///< "set 1", or "root of squares"
+    LayerPair pair;
+    double error; ///< [m]
+    std::vector<double> needle_depths;
+    LayerPair lowest, highest; ///< of the pairs within the tolerance
+    bool at_bounds;            ///< the pair lies on an edge of the grid
+    unsigned int n_solutions;
+  };
+
+
+  /** A point of a measured surface, and what was computed for it [m]. */
+  struct ComparedPoint
+  {
+    double distance, measured;
+    std::vector<double> computed; ///< left, right, or both
+  };
+
+
+  /** The results of an identification, and what follows from them. Lengths become those of its unit
+   * when they are written. */
+  struct IdentificationTable
+  {
+    std::string name; ///< of the identification
+    std::string unit;
+    double unit_length;             ///< [m]
+    std::vector<std::string> facts; ///< sentences to stand before the tables
+    std::vector<unsigned int> set_numbers;
+    std::vector<std::string> side_names;
+    double tolerance; ///< of fits
+    std::vector<PairErrors> pairs;
+    std::vector<FittedPair> fits;
+    std::vector<std::vector<ComparedPoint>> best_profiles; ///< by set
+
+    /** The pair of least error in a set. */
+    const PairErrors &
+    best_of_set(std::size_t set) const;
+
+    const PairErrors &
+    best_of_total(IdentificationParameters::Total how) const;
+
+    /** "0.75 mm and 10" */
+    std::string
+    words(const LayerPair &pair) const;
+
+    /** The best pair of each set and of each total, a sentence each; and the fits. */
+    std::vector<std::string>
+    sentences() const;
+
+    std::string
+    csv() const;
+
+    std::string
+    markdown() const;
+
+    /** Measured and computed surfaces. */
+    std::string
+    profiles_csv() const;
+
+    /** A length in the unit, with five digits. */
+    std::string
+    length(double metres) const;
+  };
+
+
+  /**
+   * Writes scripts for gnuplot with the data in them, and has them draw SVG and PNG: a heat map of
+   * the errors for each set and one for their root of squares, and the best profiles.
+   * @return what went wrong, in a sentence; empty if nothing did
+   */
+  std::string
+  plot_identification(const IdentificationTable &table, const std::string &folder);
+} // namespace Supple
+
+#endif

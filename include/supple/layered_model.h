@@ -1,0 +1,82 @@
+#ifndef supple_layered_model_h
+#define supple_layered_model_h
+
+#include <supple/identification_parameters.h>
+#include <supple/parameters.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace Supple
+{
+  /** Thickness of the upper layer [m], and its Young modulus over that of the lower one. */
+  struct LayerPair
+  {
+    double thickness;
+    double ratio;
+  };
+
+
+  /** The scene of an identification as a function of its two layers. */
+  class LayeredModel
+  {
+  public:
+    /** @throws InputError if the scene is not linear in the depth of the needle, or has no such
+     * profile */
+    LayeredModel(const IdentificationParameters &identification, MPI_Comm communicator);
+
+    /**
+     * Builds the scene with this pair and checks that its surface reaches what was measured.
+     * @throws InputError
+     */
+    void
+    check(const LayerPair &pair, const std::vector<MeasuredSet> &sets) const;
+
+    /**
+     * The surface per depth of the needle: one solution, whatever the number of sets. The same on
+     * all processes.
+     * @throws InputError if the layers don't fit to the mesh, ComputationError
+     */
+    SurfaceResponse
+    surface(const LayerPair &pair) const;
+
+    const Parameters base;
+
+  private:
+    /** Thicknesses of the layers, and the material of the lower one, as a scene has them. */
+    std::pair<std::string, std::string>
+    layers(const LayerPair &pair) const;
+
+    /** The scene with this pair, read and checked. @throws InputError */
+    Parameters
+    read_scene(const LayerPair &pair) const;
+
+    /** The same, unchecked. */
+    Parameters
+    scene(const LayerPair &pair) const;
+
+    /** Of the body [m]. */
+    double
+    height() const
+    {
+      return base.mesh.height_and_rows().first;
+    }
+
+    void
+    check_linear() const;
+
+    void
+    check_layers() const;
+
+    void
+    check_profile() const;
+
+    /** Vertices of the surface in line with the needle, from rows of the profile. */
+    std::vector<SurfaceResponse::Vertex>
+    line_of(const std::vector<std::vector<double>> &rows) const;
+
+    const IdentificationParameters &identification;
+    const MPI_Comm communicator;
+  };
+} // namespace Supple
+
+#endif

@@ -1,0 +1,196 @@
+#include <supple/gnuplot.h>
+#include <supple/identification_table.h>
+#include <supple/tables.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <sstream>
+
+namespace Supple
+{
+  using Total = IdentificationParameters::Total;
+
+  namespace
+  {
+    /** What both kinds of plots begin with. */
+    std::string
+    head(const std::string &plot, const std::string &title)
+    {
+      return "# gnuplot " + plot + ".gp draws " + plot + ".svg and .png anew.\n" +
+             "folder = ARGC > 0 ? ARG1.\"/\" : \"\"\n" + "set title " + quoted(title) +
+             " noenhanced\n" + "set tics nomirror\n";
+    }
+
+
+    /** @param commands that draw, in both terminals */
+    std::string
+    foot(const std::string &plot, const std::string &commands)
+    {
+      return "set terminal svg size 880,560 font \"Helvetica,14\" background \"white\"\n"
+             "set output folder.\"" +
+             plot + ".svg\"\n" + commands +
+             "set terminal pngcairo size 1100,700 font \"Helvetica,13\"\n"
+             "set output folder.\"" +
+             plot + ".png\"\n" + commands;
+    }
+
+
+    /** Tics at numbers 0, 1, ... with other names. */
+    std::string
+    tics(const std::string &axis, const std::vector<std::string> &names)
+    {
+      std::string text = "set " + axis + "tics (";
+      for (std::size_t i = 0; i < names.size(); ++i)
+        text += (i == 0 ? "" : ", ") + quoted(names[i]) + " " + std::to_string(i);
+      return text + ")\n";
+    }
+
+
+    std::string
+    plain(const double number)
+    {
+      std::ostringstream text;
+      text.precision(3);
+      text << number;
+      return text.str();
+    }
+
+
+    /** The place of each different number. */
+    std::map<double, unsigned int>
+    places_of(const IdentificationTable &table, double LayerPair::*coordinate)
+    {
+      std::map<double, unsigned int> places;
+      for (const PairErrors &pair : table.pairs)
+        places[pair.pair.*coordinate] = 0;
+      unsigned int n = 0;
+      for (auto &[number, place] : places)
+        place = n++;
+      return places;
+    }
+
+
+    template <class Number>
+    std::string
+    heat_map(const IdentificationTable &table,
+             const std::string &plot,
+             const std::string &title,
+             const Number &error)
+    {
+      const auto rows    = places_of(table, &LayerPair::thickness);
+      const auto columns = places_of(table, &LayerPair::ratio);
+      std::vector<std::string> row_names, column_names;
+      for (const auto &[thickness, place] : rows)
+        row_names.push_back(plain(thickness / table.unit_length));
+      for (const auto &[ratio, place] : columns)
+        column_names.push_back(plain(ratio));
+
+      const auto best =
+        std::min_element(table.pairs.begin(), table.pairs.end(), [&](const auto &a, const auto &b) {
+          return error(a) < error(b);
+        });
+      std::ostringstream text;
+      text << head(plot, title) << "$errors << EOD\n";
+      for (const PairErrors &pair : table.pairs)
+        text << columns.at(pair.pair.ratio) << " " << rows.at(pair.pair.thickness) << " "
+             << error(pair) / table.unit_length << " "
+             << plain(1e3 * error(pair) / table.unit_length) << "\n";
+      text << "EOD\n$best << EOD\n"
+           << columns.at(best->pair.ratio) << " " << rows.at(best->pair.thickness) << "\nEOD\n"
+           << tics("x", column_names) << tics("y", row_names)
+           << "set xlabel \"Young modulus of the upper layer over that of the lower one\"\n"
+           << "set ylabel " << quoted("thickness of the upper layer [" + table.unit + "]")
+           << "\nset cblabel " << quoted("error [" + table.unit + "]")
+           << "\nset logscale cb\nunset key\n"
+           << "set palette defined (0 \"#1b7837\", 1 \"#7fbf7b\", 2 \"#f7f7f7\", 3 \"#fdb863\", "
+              "4 \"#b35806\")\n"
+           << "set xrange [-0.5:" << columns.size() - 0.5
+           << "]\nset yrange [-0.5:" << rows.size() - 0.5 << "]\n";
+      const std::string small = rows.size() * columns.size() > 200 ? "8" : "11";
+      return text.str() +
+             foot(plot,
+                  "plot $errors using 1:2:3 with image, \\\n"
+                  "  $errors using 1:2:4 with labels font \"Helvetica," +
+                    small +
+                    "\", \\\n"
+                    "  $best using 1:2:(0.47):(0.47) with boxxyerror fs empty lw 3 lc rgb "
+                    "\"black\"\n");
+    }
+
+
+    std::string
+    profile_plot(const IdentificationTable &table, const std::string &plot)
+    {
+      const std::vector<std::string> colors = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd"};
+      std::ostringstream text, commands;
+      text << head(plot, table.name + ": the best pair of each set") << "set xlabel "
+           << quoted("distance from the needle [" + table.unit + "]") << "\nset ylabel "
+           << quoted("depth [" + table.unit + "]")
+           << "\nset yrange [*:*] reverse\nset border 3\n"
+              "set grid xtics ytics lt 1 lc rgb \"#dddddd\"\n"
+              "set key bottom right noenhanced Left reverse\n";
+      for (std::size_t s = 0; s < table.best_profiles.size(); ++s)
+        {
+          const std::string set   = std::to_string(table.set_numbers[s]);
+          const std::string color = "lc rgb \"" + colors[s % colors.size()] + "\"";
+          text << "$set" << s << " << EOD\n";
+          for (const ComparedPoint &point : table.best_profiles[s])
+            {
+              text << point.distance / table.unit_length << " "
+                   << point.measured / table.unit_length;
+              for (const double depth : point.computed)
+                text << " " << depth / table.unit_length;
+              text << "\n";
+            }
+          text << "EOD\n";
+          commands << (s == 0 ? "plot " : ", \\\n  ") << "$set" << s
+                   << " using 1:2 with points pt 7 ps 1 " << color << " title "
+                   << quoted("set " + set + ", measured");
+          for (std::size_t side = 0; side < table.side_names.size(); ++side)
+            commands << ", \\\n  $set" << s << " using 1:" << side + 3 << " with lines lw 2 dt "
+                     << side + 1 << " " << color << " title "
+                     << quoted("set " + set + ", " + table.words(table.best_of_set(s).pair) +
+                               (table.side_names.size() > 1 ? ", " + table.side_names[side] : ""));
+        }
+      return text.str() + foot(plot, commands.str() + "\n");
+    }
+  } // namespace
+
+
+  std::string
+  plot_identification(const IdentificationTable &table, const std::string &folder)
+  {
+    std::vector<std::pair<std::string, std::string>> plots;
+    const std::string meaning =
+      "error [" + std::string(table.unit == "mm" ? "um" : "1e-3 " + table.unit) + "]";
+    for (std::size_t s = 0; s < table.set_numbers.size(); ++s)
+      {
+        const std::string set = std::to_string(table.set_numbers[s]);
+        plots.emplace_back("errors_set_" + set,
+                           heat_map(table,
+                                    "errors_set_" + set,
+                                    table.name + ": set " + set + ", " + meaning,
+                                    [s](const PairErrors &pair) { return pair.errors[s]; }));
+      }
+    if (table.set_numbers.size() > 1)
+      plots.emplace_back("errors_root_of_squares",
+                         heat_map(table,
+                                  "errors_root_of_squares",
+                                  table.name + ": root of squares of all sets, " + meaning,
+                                  [](const PairErrors &pair) {
+                                    return pair.total(Total::root_of_squares);
+                                  }));
+    plots.emplace_back("profiles", profile_plot(table, "profiles"));
+    for (const auto &[plot, script] : plots)
+      write_whole_file(folder + "/" + plot + ".gp", script);
+    for (const auto &[plot, script] : plots)
+      {
+        const std::string problem = draw(folder, plot);
+        if (!problem.empty())
+          return problem;
+      }
+    return "";
+  }
+} // namespace Supple
