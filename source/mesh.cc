@@ -7,6 +7,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
@@ -91,29 +92,66 @@ namespace Supple
                              extent_of(box_around(mesh), mesh.dimension) + " m.");
         }
     }
+
+
+    SerialMesh
+    generate_or_read(const Parameters &parameters)
+    {
+      switch (parameters.mesh.shape)
+        {
+          case MeshParameters::Shape::box:
+            return box_mesh(parameters.mesh);
+          case MeshParameters::Shape::hollow_cylinder:
+            return hollow_cylinder_mesh(parameters.mesh);
+          case MeshParameters::Shape::rectangle:
+            return rectangle_mesh(parameters.mesh);
+          default:
+            {
+              const auto file =
+                std::filesystem::path(parameters.scene_folder) / parameters.mesh.file;
+              SerialMesh mesh = read_mesh(file.string(), parameters.origin("Mesh/File"));
+              for (auto &vertex : mesh.vertices)
+                vertex *= parameters.mesh.scale;
+              return mesh;
+            }
+        }
+    }
+
+
+    /** Puts the vertices where the user wants them. */
+    void
+    apply_map(SerialMesh &mesh, const Parameters &parameters)
+    {
+      const std::string origin = parameters.origin("Mesh/Map");
+      const Expression map(parameters.mesh.map, 3, origin);
+      for (Point<3> &vertex : mesh.vertices)
+        {
+          const Point<3> place(map.value(vertex, 0., 0),
+                               map.value(vertex, 0., 1),
+                               map.value(vertex, 0., 2));
+          const bool finite =
+            std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
+          if (!finite || (mesh.dimension == 2 && place[2] != 0.))
+            {
+              std::ostringstream text;
+              text << origin << ": the vertex at (" << vertex << ") is put at (" << place << "); "
+                   << (finite ? "a plane body stays in the plane z = 0."
+                              : "there must be a place for each vertex.");
+              throw InputError(text.str());
+            }
+          vertex = place;
+        }
+    }
   } // namespace
 
 
   SerialMesh
   make_serial_mesh(const Parameters &parameters)
   {
-    switch (parameters.mesh.shape)
-      {
-        case MeshParameters::Shape::box:
-          return box_mesh(parameters.mesh);
-        case MeshParameters::Shape::hollow_cylinder:
-          return hollow_cylinder_mesh(parameters.mesh);
-        case MeshParameters::Shape::rectangle:
-          return rectangle_mesh(parameters.mesh);
-        default:
-          {
-            const auto file = std::filesystem::path(parameters.scene_folder) / parameters.mesh.file;
-            SerialMesh mesh = read_mesh(file.string(), parameters.origin("Mesh/File"));
-            for (auto &vertex : mesh.vertices)
-              vertex *= parameters.mesh.scale;
-            return mesh;
-          }
-      }
+    SerialMesh mesh = generate_or_read(parameters);
+    if (!parameters.mesh.map.empty())
+      apply_map(mesh, parameters);
+    return mesh;
   }
 
 

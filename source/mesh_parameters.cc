@@ -95,6 +95,15 @@ namespace Supple
         positive,
         "All coordinates of a file times this.");
     prm.add_parameter(
+      "Map",
+      map,
+      "Where a vertex is put that the mesh has at x, y, z, such as x*cos(y); x*sin(y); z for a "
+      "ring "
+      "out of a box. Cells, boundary ids and materials stay what they are; Boundary regions and "
+      "all other places mean the body after it. Empty: vertices stay. Unit: m. Range: three "
+      "expressions of x, y, z set apart by semicolons; the third is 0 for a plane body.",
+      dealii::Patterns::Anything());
+    prm.add_parameter(
       "Boundary regions",
       boundary_regions,
       "Boundary ids by place, such as 7: z < 0.1; 8: z > 2. A face of the surface whose vertices "

@@ -59,6 +59,7 @@ namespace Supple
     std::string file; ///< as written; relative to the folder of the scene
     double scale = 1.;
     std::string boundary_regions;
+    std::string map; ///< where vertices are put; empty: they stay
 
     void
     declare(dealii::ParameterHandler &prm);
