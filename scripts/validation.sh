@@ -24,6 +24,7 @@ for name in "${names[@]}"; do
     "$supple" parameters/validation/elastica.prm --output output/elastica/shape --quiet --set "Output/Frames=none" \
       --set "Probes/Profiles=upper: 3; lower: 2"
     /usr/bin/python3 scripts/elastica.py output/elastica/shape doc/pictures/elastica.png
-    cp output/elastica/convergence.svg doc/pictures/elastica-convergence.svg
+  elif [ "$name" = cantilever-plane ]; then
+    cp output/cantilever-plane/convergence.svg doc/pictures/cantilever-plane.svg
   fi
 done

@@ -118,29 +118,51 @@ namespace Supple
     }
 
 
-    /** Puts the vertices where the user wants them. */
+    /** @throws InputError where the map gives no place, or leaves the plane of a plane body */
+    Point<3>
+    mapped(const Expression &map,
+           const Point<3> &vertex,
+           const bool plane,
+           const std::string &origin)
+    {
+      const Point<3> place(map.value(vertex, 0., 0),
+                           map.value(vertex, 0., 1),
+                           map.value(vertex, 0., 2));
+      const bool finite =
+        std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
+      if (finite && (!plane || place[2] == 0.))
+        return place;
+      std::ostringstream text;
+      text << origin << ": the vertex at (" << vertex << ") is put at (" << place << "); "
+           << (finite ? "a plane body stays in the plane z = 0."
+                      : "there must be a place for each vertex.");
+      throw InputError(text.str());
+    }
+
+
+    /** Puts the vertices where the user wants them. A map may turn all cells around, as a mirror
+     * does, but not some: it folds the body then. */
     void
     apply_map(SerialMesh &mesh, const Parameters &parameters)
     {
       const std::string origin = parameters.origin("Mesh/Map");
       const Expression map(parameters.mesh.map, 3, origin);
+      if (map.depends_on_time())
+        throw InputError(origin + ": the body at rest does not depend on t.");
+
+      std::vector<bool> was_positive(mesh.cells.size());
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        was_positive[c] = mesh.volume(c) > 0.;
       for (Point<3> &vertex : mesh.vertices)
-        {
-          const Point<3> place(map.value(vertex, 0., 0),
-                               map.value(vertex, 0., 1),
-                               map.value(vertex, 0., 2));
-          const bool finite =
-            std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
-          if (!finite || (mesh.dimension == 2 && place[2] != 0.))
-            {
-              std::ostringstream text;
-              text << origin << ": the vertex at (" << vertex << ") is put at (" << place << "); "
-                   << (finite ? "a plane body stays in the plane z = 0."
-                              : "there must be a place for each vertex.");
-              throw InputError(text.str());
-            }
-          vertex = place;
-        }
+        vertex = mapped(map, vertex, mesh.dimension == 2, origin);
+
+      std::size_t n_turned = 0;
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        n_turned += (mesh.volume(c) > 0.) != was_positive[c];
+      if (n_turned > 0 && n_turned < mesh.cells.size())
+        throw InputError(origin + ": it turns " + std::to_string(n_turned) + " of " +
+                         std::to_string(mesh.cells.size()) +
+                         " cells inside out; it must not fold the body.");
     }
   } // namespace
 

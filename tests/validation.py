@@ -49,6 +49,10 @@ for row in rows:
 converges(study("lame-cylinder", levels=3), {"inner": 0.013, "outer": 0.01}, (1.85, 2.1))
 converges(study("lame-cylinder-plane", levels=4), {"inner": 3e-4, "outer": 4e-4}, (1.95, 2.05))
 converges(study("lame-sphere-axisymmetric", levels=4), {"inner": 4e-4, "outer": 5e-4}, (1.9, 2.05))
+# The sizes of triangles, where levels have names that are none.
+rows = study("lame-cylinder-plane", Levels="coarse [Mesh/Rectangle squares = 8, 12]; fine [Mesh/Rectangle squares = 16, 24]")
+runner.check(abs(float(rows[1]["order"]) - 2) < 0.1 and 0.05 < float(rows[1]["cell_size"]) < 0.1, f"{rows}")
+
 rows = study("lame-sphere", levels=3)
 converges(rows, {"inner": 0.09}, (1.3, 2.1))
 runner.check(float(rows[-1]["error_energy"]) < 0.03 and float(rows[-1]["order_energy"]) > 1.7, f"{rows[-1]}")
