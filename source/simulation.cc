@@ -166,6 +166,10 @@ namespace Supple
         "stable for oscillations that hardly decay: these may grow without bounds.");
     if (!energy_from_nowhere().empty())
       list.push_back(energy_from_nowhere());
+    if (effort.stand_in_solves > 0)
+      list.push_back(solver->name() + " failed in " + std::to_string(effort.stand_in_solves) +
+                     " of " + std::to_string(effort.solves) + " systems, which " +
+                     solver->stand_in_name() + " solved in its stead.");
     return list;
   }
 
@@ -451,6 +455,7 @@ namespace Supple
     observer = watching;
     observed = writes_history || writes_frames || observer;
     open_output();
+    warnings_told = warnings();
     print_description(false);
     try
       {
@@ -629,8 +634,9 @@ namespace Supple
     if (implicit_operator.has_mass() && std::isfinite(error_estimate))
       std::cout << ", sum of local errors " << error_estimate << " m";
     std::cout << "; " << (frames ? frames->n_written() : 0) << " frames in " << folder << std::endl;
-    if (!energy_from_nowhere().empty())
-      line("warning", energy_from_nowhere());
+    for (const std::string &text : warnings())
+      if (std::find(warnings_told.begin(), warnings_told.end(), text) == warnings_told.end())
+        line("warning", text);
     if (!step_doubling)
       return;
     if (step_doubling->failure.empty() && largest_motion > 0.)
