@@ -7,6 +7,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
@@ -83,7 +84,7 @@ namespace Supple
 
 
     SerialMesh
-    mesh_as_shaped(const Parameters &parameters)
+    generate_or_read(const Parameters &parameters)
     {
       switch (parameters.mesh.shape)
         {
@@ -106,29 +107,51 @@ namespace Supple
     }
 
 
-    /** @throws InputError if a cell is turned inside out by it */
-    void
-    place_vertices(SerialMesh &mesh, const Parameters &parameters)
+    /** @throws InputError where the map gives no place, or leaves the plane of a plane body */
+    Point<3>
+    mapped(const Expression &map,
+           const Point<3> &vertex,
+           const bool plane,
+           const std::string &origin)
     {
-      const std::string origin = parameters.origin("Mesh/Placement");
-      const Expression placement(parameters.mesh.placement, 3, origin);
-      std::vector<double> volumes(mesh.cells.size());
+      const Point<3> place(map.value(vertex, 0., 0),
+                           map.value(vertex, 0., 1),
+                           map.value(vertex, 0., 2));
+      const bool finite =
+        std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
+      if (finite && (!plane || place[2] == 0.))
+        return place;
+      std::ostringstream text;
+      text << origin << ": the vertex at (" << vertex << ") is put at (" << place << "); "
+           << (finite ? "a plane body stays in the plane z = 0."
+                      : "there must be a place for each vertex.");
+      throw InputError(text.str());
+    }
+
+
+    /** Puts the vertices where the user wants them. A map may turn all cells around, as a mirror
+     * does, but not some: it folds the body then. */
+    void
+    apply_map(SerialMesh &mesh, const Parameters &parameters)
+    {
+      const std::string origin = parameters.origin("Mesh/Map");
+      const Expression map(parameters.mesh.map, 3, origin);
+      if (map.depends_on_time())
+        throw InputError(origin + ": the body at rest does not depend on t.");
+
+      std::vector<bool> was_positive(mesh.cells.size());
       for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-        volumes[c] = mesh.volume(c);
-      for (auto &vertex : mesh.vertices)
-        {
-          const Point<3> from = vertex;
-          for (unsigned int d = 0; d < 3; ++d)
-            vertex[d] = placement.value(from, 0., d);
-        }
+        was_positive[c] = mesh.volume(c) > 0.;
+      for (Point<3> &vertex : mesh.vertices)
+        vertex = mapped(map, vertex, mesh.dimension == 2, origin);
+
+      std::size_t n_turned = 0;
       for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-        if (!(mesh.volume(c) * volumes[c] > 0.))
-          {
-            std::ostringstream text;
-            text << origin << ": it turns cell " << c << " at (" << mesh.vertices[mesh.cells[c][0]]
-                 << ") inside out or flat.";
-            throw InputError(text.str());
-          }
+        n_turned += (mesh.volume(c) > 0.) != was_positive[c];
+      if (n_turned > 0 && n_turned < mesh.cells.size())
+        throw InputError(origin + ": it turns " + std::to_string(n_turned) + " of " +
+                         std::to_string(mesh.cells.size()) +
+                         " cells inside out; it must not fold the body.");
     }
   } // namespace
 
@@ -136,9 +159,9 @@ namespace Supple
   SerialMesh
   make_serial_mesh(const Parameters &parameters)
   {
-    SerialMesh mesh = mesh_as_shaped(parameters);
-    if (parameters.mesh.placement != MeshParameters().placement)
-      place_vertices(mesh, parameters);
+    SerialMesh mesh = generate_or_read(parameters);
+    if (!parameters.mesh.map.empty())
+      apply_map(mesh, parameters);
     return mesh;
   }
 

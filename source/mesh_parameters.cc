@@ -96,6 +96,15 @@ namespace Supple
         positive,
         "All coordinates of a file times this.");
     prm.add_parameter(
+      "Map",
+      map,
+      "Where a vertex is put that the mesh has at x, y, z, such as x*cos(y); x*sin(y); z for a "
+      "ring "
+      "out of a box. Cells, boundary ids and materials stay what they are; Boundary regions and "
+      "all other places mean the body after it. Empty: vertices stay. Unit: m. Range: three "
+      "expressions of x, y, z set apart by semicolons; the third is 0 for a plane body.",
+      dealii::Patterns::Anything());
+    prm.add_parameter(
       "Boundary regions",
       boundary_regions,
       "Boundary ids by place, such as 7: z < 0.1; 8: z > 2. A face of the surface whose vertices "
@@ -166,14 +175,6 @@ namespace Supple
                   dealii::Patterns::List::max_int_value),
         "How many of the rows of cubes or squares each of the Layers has, from the top downward; "
         "in a layer they are equally high, so that it may end anywhere. Empty: all rows are.");
-    prm.add_parameter(
-      "Placement",
-      placement,
-      "Where the vertex at x, y, z of a box, a cylinder, a rectangle or a file is put, such as "
-      "x*(0.2 + 0.8*(x/0.006)^2); y; z for small cells in the middle. Layers, and boundary ids of "
-      "shapes, are found before; all else speaks of the new places. Unit: m. Range: " +
-        Range::expressions(3).description(dealii::Patterns::PatternBase::Text) + ".",
-      Range::expressions(3));
     declare_file(prm);
     prm.leave_subsection();
   }

@@ -61,7 +61,8 @@ namespace Supple
       levels,
       "Compares meshes from coarse to fine, such as 1 [Mesh/Box cubes=2, 8, 2]; 0.5 [Mesh/Box "
       "cubes=4, 16, 4]. Names that are numbers are the sizes of the cells, from which the observed "
-      "order follows; otherwise it follows from the cube root of the volume per cell. Unit: m. "
+      "order follows; otherwise it follows from the cube root of the volume per cell, or from the "
+      "root of a triangle's area. Unit: m. "
       "Range: name [overrides], set apart by semicolons.",
       any);
     prm.add_parameter("Variants",
@@ -127,9 +128,10 @@ namespace Supple
       "Numbers of each run that stand in the table, such as sag: tip.uz; lowest: smallest "
       "min_volume_ratio; rises: falls dissipated; f: frequency tip.uz; newton: summary "
       "solver/newton_iterations. A column of history.csv or probes.csv is taken at the end; "
-      "before it may stand first, largest, smallest, rises or falls (in how many steps it does), "
-      "or frequency (of its swings about its middle [1/s]). summary takes a number out of "
-      "summary.json. Unit: none. Range: name: what, set apart by semicolons.",
+      "before it may stand first, largest, smallest, at and a time (between rows: interpolated), "
+      "rises or falls (in how many steps it does), or frequency (of its swings about its middle "
+      "[1/s]). summary takes a number out of summary.json. Unit: none. Range: name: what, set "
+      "apart by semicolons.",
       any);
     prm.add_parameter("Right if",
                       right_if,

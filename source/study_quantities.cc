@@ -156,15 +156,21 @@ namespace Supple
       {
         std::smatch found;
         const std::regex form(
-          "((last|first|largest|smallest|rises|falls|frequency|summary)\\s+)?(\\S+)");
+          "((last|first|largest|smallest|rises|falls|frequency|summary|at\\s+(\\S+))\\s+)?(\\S+)");
         if (!std::regex_match(text, found, form))
           throw InputError(
             place + ": '" + text +
             "' is not of the form column, first column, largest column, smallest "
-            "column, rises column, falls column, frequency column or summary entry.");
+            "column, rises column, falls column, frequency column, at time column or summary "
+            "entry.");
         if (std::set<std::string>{"x", "y", "z", "t", "pi"}.count(name) > 0)
           throw InputError(place + ": '" + name + "' means something else in expressions.");
-        all_values.push_back({name, found[2].matched ? found[2].str() : "last", found[3]});
+        all_values.push_back({name, found[2].matched ? found[2].str() : "last", found[4]});
+        if (found[3].matched)
+          {
+            all_values.back().reduction = "at";
+            all_values.back().time = Expression(found[3], 1, place).value(dealii::Point<3>(), 0.);
+          }
         if (all_values.back().reduction != "summary")
           check_column(all_values.back().column, place);
       }
@@ -382,6 +388,8 @@ namespace Supple
           numbers.push_back(from_summary(run.summary, value.column));
         else if (run.columns.count(value.column) == 0)
           numbers.push_back(nothing);
+        else if (value.reduction == "at")
+          numbers.push_back(run.has(value.time) ? run.value(value.column, value.time) : nothing);
         else
           numbers.push_back(reduced(value.reduction, run.column("time"), run.column(value.column)));
       }

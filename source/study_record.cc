@@ -63,6 +63,14 @@ namespace Supple
   }
 
 
+  bool
+  StudyRecord::has(const double time) const
+  {
+    const std::vector<double> &times = column("time");
+    return times.size() > 1 && time >= times.front() && time <= times.back() * (1. + 1e-12);
+  }
+
+
   double
   StudyRecord::value(const std::string &name, const double time) const
   {
@@ -135,7 +143,7 @@ namespace Supple
     record.end          = simulation.time();
     const auto summary  = nlohmann::json::parse(record.summary);
     record.n_cells      = summary["cells"];
-    record.cell_size    = std::cbrt(summary["volume"].get<double>() / record.n_cells);
+    record.cell_size    = summary["cell_size"];
     record.steps        = summary["steps"];
     record.rejected     = summary["rejected_steps"];
     record.failed       = summary["failed_steps"];

@@ -136,14 +136,15 @@ namespace Supple
               column.add(error, percent(error) + (unclear ? " (?)" : ""));
             }
           columns.push_back(column);
-          if (i > 0 || table.kind == StudyPlan::Kind::cases)
+          if (table.kind == StudyPlan::Kind::cases ||
+              (i > 0 && table.kind == StudyPlan::Kind::methods))
             continue;
-          Column order{"order", "order", {}, {}};
+          Column order{i == 0 ? "order" : "order_" + table.error_names[i], "order", {}, {}};
           for (const StudyRow &row : table.rows)
             {
               char shown[32];
-              std::snprintf(shown, sizeof(shown), "%.2f", row.order);
-              order.add(row.order, shown);
+              std::snprintf(shown, sizeof(shown), "%.2f", at(row.orders, i));
+              order.add(at(row.orders, i), shown);
             }
           columns.push_back(order);
         }
@@ -248,13 +249,15 @@ namespace Supple
   {
     for (std::size_t i = 0; i < rows.size(); ++i)
       {
-        rows[i].order = std::numeric_limits<double>::quiet_NaN();
+        rows[i].orders.assign(rows[i].errors.size(), std::numeric_limits<double>::quiet_NaN());
         for (std::size_t j = i; j-- > 0;)
           if (rows[j].run.curve == rows[i].run.curve && std::isfinite(rows[j].error()))
             {
-              if (rows[i].error() > 0. && rows[i].size != rows[j].size)
-                rows[i].order = std::log(rows[j].error() / rows[i].error()) /
-                                std::log(rows[j].size / rows[i].size);
+              if (rows[i].size != rows[j].size)
+                for (std::size_t e = 0; e < rows[i].errors.size(); ++e)
+                  if (rows[i].errors[e] > 0. && rows[j].errors[e] > 0.)
+                    rows[i].orders[e] = std::log(rows[j].errors[e] / rows[i].errors[e]) /
+                                        std::log(rows[j].size / rows[i].size);
               break;
             }
       }

@@ -71,6 +71,18 @@ namespace Supple
         }
       return json;
     }
+
+
+    /** Cube root of the volume per cell, or square root of the area per triangle [m]. */
+    double
+    cell_size(const Mesh &mesh)
+    {
+      const double volume = mesh.volume / mesh.n_cells;
+      if (!mesh.section.plane())
+        return std::cbrt(volume);
+      const auto &[low, high] = mesh.bounding_box.get_boundary_points();
+      return std::sqrt(volume / mesh.section.thickness_at(0.5 * (low[0] + high[0])));
+    }
   } // namespace
 
 
@@ -83,13 +95,14 @@ namespace Supple
     json["status"]   = status;
     json["warnings"] = warnings;
 
-    json["cells"]    = model.body.mesh.n_cells;
-    json["vertices"] = model.body.mesh.n_vertices;
-    json["dofs"]     = model.body.n_dofs();
-    json["volume"]   = model.body.mesh.volume;
-    json["held"]     = model.constraints.n_held;
-    json["ranks"]    = dealii::Utilities::MPI::n_mpi_processes(model.body.mesh.communicator);
-    json["method"]   = integrator;
+    json["cells"]     = model.body.mesh.n_cells;
+    json["vertices"]  = model.body.mesh.n_vertices;
+    json["dofs"]      = model.body.n_dofs();
+    json["volume"]    = model.body.mesh.volume;
+    json["cell_size"] = cell_size(model.body.mesh);
+    json["held"]      = model.constraints.n_held;
+    json["ranks"]     = dealii::Utilities::MPI::n_mpi_processes(model.body.mesh.communicator);
+    json["method"]    = integrator;
     if (stable_step)
       json["stable_step"] = {{"step", stable_step->step},
                              {"frequency", stable_step->frequency},

@@ -108,3 +108,11 @@ runner.check(status == 1 and error.count("7 processes are too many for 6 cells")
 # On two processes the message comes once.
 status, _, error = runner.run(runner.BAR, "--set", "Constraints/Clamped region=x > 100", ranks=2)
 runner.check(status == 1 and error.count("this region has no vertex") == 1, error)
+
+# A map of the mesh.
+with_setting("Mesh/Map", "x; y", "found 2 expression(s)", "must be 3")
+with_setting("Mesh/Map", "x; y; z/x", "Mesh/Map", "is put at", "a place for each vertex")
+with_setting("Mesh/Map", "x; y + t; z", "does not depend on t")
+with_setting("Mesh/Map", "abs(x - 1); y; z", "turns 96 of 192 cells inside out", "must not fold")
+refused([runner.BAR, "--set", "Mesh/Shape=rectangle", "--set", "Mesh/Map=x; y; 1", "--set", "Constraints/Boundaries held along z="],
+        "plane z = 0")

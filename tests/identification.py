@@ -167,7 +167,7 @@ refused("Loads/Gravity", "needle alone", arguments=["--set", "Loads/Gravity=0, -
 refused("Motion/Of", "outside the body", arguments=["--set", "Motion/Of=nearest to 0.02, 0, 0"])
 refused("Mesh/Layer rows", "7 rows together", "6", arguments=["--set", "Mesh/Layer rows=3, 4"])
 refused("Mesh/Layer rows", "one for each", arguments=["--set", "Mesh/Layer rows=6"])
-refused("Mesh/Placement", "inside out", arguments=["--set", "Mesh/Placement=-x; y; z"])
+refused("Mesh/Map", "inside out", arguments=["--set", "Mesh/Map=abs(x); y; z"])
 refused("wrong.prm", "Stop", Stop="1")
 status, _, error = runner.run(SKIN / "tables-3.3.prm", "--output", folder / "up", "--quiet", "--set", "Motion/Displacement=free; 0.001*t; free")
 runner.check(status == 1 and "does not go down" in error, f"{status} {error}")

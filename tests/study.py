@@ -120,13 +120,17 @@ runner.check(rows[0]["order"] == "" == rows[2]["order"] and float(rows[1]["order
 
 # Cases: numbers of each, a verdict, and rows of those that are refused or fail.
 rows = study("cases", Scene=runner.BAR, Overrides="Time/Steps = 20",
-             Columns="sag: smallest n28.uz; rises: falls dissipated; inverted: largest inverted; f: frequency n28.uz; first: first time",
+             Columns="sag: smallest n28.uz; rises: falls dissipated; inverted: largest inverted; f: frequency n28.uz; first: first time; "
+                     "soon: at 0.07*2 n28.uz; never: at 99 n28.uz",
              Cases="plain []; at rest [Start/Velocity = 0; 0; 0]; locked [Material/Poisson ratio = 0.5]; "
                    f"broken [{late} | Time/Retries = 0]; swings [Time/Step = 0.007 | Time/Steps = 300 | Time/Method = esdirk4]",
              Right_if="sag < -1 && rises <= 2 && inverted == 0", Exact="first: 0", Repeats=0)
 runner.check([row["verdict"] for row in rows] == ["right", "wrong", "refused", "failed", "right"], f"{rows}")
 runner.check("less than 0.5" in rows[2]["status"] and rows[2]["sag"] == "", f"{rows[2]}")
 runner.check(float(rows[1]["sag"]) > -0.3 and float(rows[3]["steps"]) == 4, f"{rows[1]} {rows[3]}")
+second = runner.Results(folder / "cases-1" / "runs" / "plain").probes()[2]
+runner.check(second["time"] == 0.14 and abs(float(rows[0]["soon"]) - second["n28.uz"]) < 1e-9, f"{rows[0]} {second}")
+runner.check(rows[0]["never"] == "", f"{rows[0]}")
 runner.check(1 < float(rows[4]["f"]) < 2 and float(rows[4]["error_first"]) == 0, f"{rows[4]}")
 
 # A check builds all and writes nothing.
@@ -171,6 +175,7 @@ refused("'height' is no column", "n28.ux", Quantities="height")
 refused("follows no point", "Probes/Points", Overrides="Probes/Points =", line=False)
 refused("'n0.u' is no column", Columns="a: n0.u")
 refused("form", Columns="a: mean n0.ux")
+refused("Study/Columns", "soon", Columns="a: at soon n0.ux")
 refused("means something else", Columns="x: n0.ux")
 refused("needs Columns", Right_if="a > 0")
 refused("Right if", "b", Columns="a: n0.ux", Right_if="b > 0")

@@ -56,11 +56,11 @@ namespace Supple
 
     std::vector<double> material_layers;  ///< thicknesses from the top (largest y) downward [m]
     std::vector<unsigned int> layer_rows; ///< of cubes or squares in each layer; may be empty
-    std::string placement = "x; y; z";    ///< where vertices are put, three expressions
 
     std::string file; ///< as written; relative to the folder of the scene
     double scale = 1.;
     std::string boundary_regions;
+    std::string map; ///< where vertices are put; empty: they stay
 
     void
     declare(dealii::ParameterHandler &prm);

@@ -60,8 +60,9 @@ namespace Supple
     struct Value
     {
       std::string name;
-      std::string reduction; ///< last, first, ..., summary
+      std::string reduction; ///< last, first, ..., at, summary
       std::string column;    ///< or where in summary.json
+      double time = 0.;      ///< of at [s]
     };
 
     struct ExactValue

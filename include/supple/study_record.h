@@ -29,7 +29,7 @@ namespace Supple
     std::map<std::string, std::vector<double>> columns;
     Vector displacement;        ///< at the end
     double largest_motion = 0.; ///< of a vertex [m]
-    double cell_size      = 0.; ///< cube root of the volume per cell [m]
+    double cell_size      = 0.; ///< cube root of the volume per cell, or root of the area [m]
     unsigned int n_cells  = 0;
     unsigned int steps    = 0;
     unsigned int rejected = 0;
@@ -47,6 +47,10 @@ namespace Supple
     {
       return columns.at(name);
     }
+
+    /** Whether the run came to this time. */
+    bool
+    has(double time) const;
 
     /** A column between its rows: by cubic Hermite interpolation where it is the displacement of a
      * probe, whose velocity is kept, and linearly for all others. */

@@ -25,8 +25,8 @@ namespace Supple
     unsigned int rejected = 0; ///< steps
     unsigned int failed   = 0; ///< steps
 
-    double order  = 0.;    ///< observed, from the row before of the same series to this one
-    bool on_front = false; ///< no other run is both better and quicker
+    std::vector<double> orders; ///< observed, from the row before of the same series to this one
+    bool on_front = false;      ///< no other run is both better and quicker
 
     /** The error that orders, front and plots are about; not-a-number if there is none. */
     double
