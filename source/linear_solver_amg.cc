@@ -129,7 +129,8 @@ namespace Supple
     public:
       AmgSolver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort)
         : LinearSolver(A, parameters, effort)
-        , multigrid(A.matrix(), A.body.partitioner)
+        , preconditioning_matrix(A)
+        , multigrid(preconditioning_matrix.get(), A.body.partitioner)
         , n_owned(A.body.n_owned)
         , correction(A.body.n_local)
         , r(A.body.n_local)
@@ -149,6 +150,7 @@ namespace Supple
       void
       do_prepare(const Vector &displacement) override
       {
+        preconditioning_matrix.update();
         if (built && !rule.due())
           {
             multigrid.refresh_finest();
@@ -197,7 +199,8 @@ namespace Supple
         last_curvature            = 0.;
         x                         = 0.;
         residual                  = b;
-        while (norm > goal && reduction <= smallest_reduction)
+        // In single precision there are no patches.
+        while (!A.body.patches && norm > goal && reduction <= smallest_reduction)
           {
             const double before = norm;
             const double aim    = std::max(reduction * norm, std::min(0.9 * goal, 0.5 * norm));
@@ -309,6 +312,7 @@ namespace Supple
         return control.last_step();
       }
 
+      PreconditioningMatrix preconditioning_matrix;
       Multigrid multigrid;
       RefreshRule rule;
       bool built       = false;

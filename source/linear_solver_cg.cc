@@ -27,10 +27,12 @@ namespace Supple
                          const SolverParameters &parameters,
                          Effort &effort)
         : LinearSolver(A, parameters, effort)
+        , preconditioning_matrix(A)
       {
       }
 
     protected:
+      PreconditioningMatrix preconditioning_matrix;
       Preconditioner preconditioner;
 
     private:
@@ -108,7 +110,8 @@ namespace Supple
       void
       do_prepare(const Vector &) override
       {
-        preconditioner.initialize(A.matrix());
+        preconditioning_matrix.update();
+        preconditioner.initialize(preconditioning_matrix.get());
       }
     };
 
@@ -147,7 +150,7 @@ namespace Supple
       void
       find_rows()
       {
-        const SymmetricBlockMatrix &blocks = A.matrix();
+        const SymmetricBlockMatrix &blocks = preconditioning_matrix.get();
         const SymmetricPattern &pattern    = blocks.pattern;
         rows.resize(pattern.n_owned);
         for (std::size_t i = 0; i < pattern.n_local; ++i)
@@ -240,6 +243,7 @@ namespace Supple
       void
       do_prepare(const Vector &displacement) override
       {
+        preconditioning_matrix.update();
         copy_values();
         find_rigid_motions(displacement);
 
