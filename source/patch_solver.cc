@@ -1,4 +1,10 @@
+#include <supple/error.h>
 #include <supple/patch_solver.h>
+
+#include <deal.II/lac/solver_minres.h>
+
+#include <cmath>
+#include <sstream>
 
 namespace Supple
 {
@@ -31,17 +37,6 @@ namespace Supple
   }
 
 
-  State
-  PatchSystem::vector() const
-  {
-    State state(2);
-    A.body.initialize(state.block(0));
-    state.block(1).reinit(patches.partitioner);
-    state.collect_sizes();
-    return state;
-  }
-
-
   void
   PatchSystem::vmult(State &y, const State &x) const
   {
@@ -57,9 +52,65 @@ namespace Supple
 
 
   void
-  PatchSystem::precondition(Vector &y, const Vector &x) const
+  PatchSystem::Preconditioning::vmult(State &y, const State &x) const
   {
-    for (unsigned int p = 0; p < schur.size(); ++p)
-      y.local_element(p) = x.local_element(p) / schur[p];
+    of_displacement(y.block(0), x.block(0));
+    for (unsigned int p = 0; p < system.schur.size(); ++p)
+      y.block(1).local_element(p) = x.block(1).local_element(p) / system.schur[p];
+  }
+
+
+  /**
+   * The residual of A is that of the saddle point problem with what is left of its second row times
+   * D^-1, which is large: then once more for what is left over, to a smaller one.
+   */
+  unsigned int
+  PatchSystem::solve(Vector &x,
+                     const Vector &b,
+                     Vector &residual,
+                     const Preconditioning &preconditioning,
+                     const SolverParameters &parameters,
+                     const std::string &name) const
+  {
+    State right_hand_side(2), solution(2), scratch_state(2);
+    for (State *state : {&right_hand_side, &solution, &scratch_state})
+      {
+        A.body.initialize(state->block(0));
+        state->block(1).reinit(patches.partitioner);
+        state->collect_sizes();
+      }
+    x                         = 0.;
+    residual                  = b;
+    const double goal         = parameters.tolerance * b.l2_norm();
+    double norm               = b.l2_norm();
+    unsigned int n_iterations = 0;
+    while (norm > goal && n_iterations < parameters.iteration_limit)
+      {
+        right_hand_side.block(0) = residual;
+        right_hand_side.block(1) = 0.;
+        solution                 = 0.;
+        preconditioning.vmult(scratch_state, right_hand_side);
+        const double size = std::sqrt(scratch_state * right_hand_side);
+        dealii::IterationNumberControl control(parameters.iteration_limit - n_iterations,
+                                               std::max(1e-10, 0.3 * goal / norm) * size);
+        dealii::SolverMinRes<State> solver(control, memory);
+        solver.solve(*this, solution, right_hand_side, preconditioning);
+        n_iterations += std::max(1u, control.last_step());
+        x += solution.block(0);
+        A.vmult(residual, x);
+        residual.sadd(-1., 1., b);
+        if (!all_finite(residual))
+          throw ComputationError("the linear solver " + name + " gave no finite numbers");
+        norm = residual.l2_norm();
+      }
+    if (norm > goal)
+      {
+        std::ostringstream text;
+        text << "minimal residuals (" << name << ") did not reach the relative residual "
+             << parameters.tolerance << " in " << n_iterations << " iterations; they got to "
+             << norm / b.l2_norm();
+        throw ComputationError(text.str());
+      }
+    return n_iterations;
   }
 } // namespace Supple

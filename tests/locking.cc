@@ -82,13 +82,14 @@ namespace
       const Section section{geometry, 0.4};
       const unsigned int n = positions.size();
       cells                = std::make_unique<Cells>(positions, n, list, true, 0., section);
-      plain   = std::make_unique<Cells>(positions, n, plain_list, true, 0., section);
-      patches = std::make_unique<VolumetricPatches>(
-        *cells,
-        patch_cells,
-        n,
-        measure,
-        std::make_shared<dealii::Utilities::MPI::Partitioner>(n_p));
+      plain                = std::make_unique<Cells>(positions, n, plain_list, true, 0., section);
+      patches =
+        std::make_unique<VolumetricPatches>(*cells,
+                                            patch_cells,
+                                            n,
+                                            measure,
+                                            std::make_shared<dealii::Utilities::MPI::Partitioner>(
+                                              n_p));
     }
 
     /** u = G x + t sin(...), in the plane if the body is. */
@@ -98,10 +99,10 @@ namespace
       Nodal u;
       for (const auto &x : positions)
         for (unsigned int i = 0; i < 3; ++i)
-          u.push_back(i >= dimension ?
-                        0. :
-                        G[3 * i] * x[0] + G[3 * i + 1] * x[1] + G[3 * i + 2] * x[2] +
-                          waves * std::sin(3. * x[(i + 1) % dimension] + 2. * x[i] + i));
+          u.push_back(i >= dimension
+                        ? 0.
+                        : G[3 * i] * x[0] + G[3 * i + 1] * x[1] + G[3 * i + 2] * x[2] +
+                            waves * std::sin(3. * x[(i + 1) % dimension] + 2. * x[i] + i));
       return u;
     }
 
@@ -193,14 +194,15 @@ namespace
   void
   test_patch(PatchedBody &body)
   {
-    const Nodal u =
-      body.displacement({{0.02, 0.01, -0.03, 0.015, -0.01, 0.02, 0.01, 0.005, 0.03}});
+    const Nodal u = body.displacement({{0.02, 0.01, -0.03, 0.015, -0.01, 0.02, 0.01, 0.005, 0.03}});
     const Nodal f = body.own_force(u);
     double inner = 0., boundary = 0.;
     for (std::size_t node = 0; node < body.positions.size(); ++node)
       for (unsigned int i = 0; i < body.dimension; ++i)
         (body.inner[node] ? inner : boundary) += f[3 * node + i] * f[3 * node + i];
-    report("constant strain, inner forces over boundary forces", std::sqrt(inner / boundary), 1e-12);
+    report("constant strain, inner forces over boundary forces",
+           std::sqrt(inner / boundary),
+           1e-12);
 
     const auto stress  = body.patches->mean_stress(u.data());
     const auto extreme = std::minmax_element(stress.begin(), stress.end());
@@ -314,8 +316,7 @@ namespace
   void
   test_tangent(PatchedBody &body, const Nodal &u)
   {
-    const Nodal w =
-      body.displacement({{0.3, 0.1, 0.2, -0.4, 0.5, 0.1, 0.2, 0.2, -0.3}}, 0.4);
+    const Nodal w  = body.displacement({{0.3, 0.1, 0.2, -0.4, 0.5, 0.1, 0.2, 0.2, -0.3}}, 0.4);
     const double h = 1e-6;
     Nodal up = u, down = u, error(u.size());
     for (std::size_t i = 0; i < u.size(); ++i)
@@ -335,7 +336,9 @@ namespace
     const Nodal product = body.tangent_product(w);
     for (std::size_t i = 0; i < u.size(); ++i)
       error[i] = (f_up[i] - f_down[i]) / (2. * h) - product[i];
-    report("consistent tangent against differences of the force", norm(error) / norm(product), 1e-7);
+    report("consistent tangent against differences of the force",
+           norm(error) / norm(product),
+           1e-7);
 
     const SymmetricPattern pattern = full_pattern(body.positions.size());
     body.cells->connect(pattern);
@@ -349,8 +352,7 @@ namespace
 
     set_tangent(Tangent::definite);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      dense(body, [&](const Nodal &x) { return body.tangent_product(x); }),
-      Eigen::EigenvaluesOnly);
+      dense(body, [&](const Nodal &x) { return body.tangent_product(x); }), Eigen::EigenvaluesOnly);
     report("definite tangent: smallest over largest eigenvalue, with a minus sign",
            std::max(0., -eigen.eigenvalues().minCoeff() / eigen.eigenvalues().maxCoeff()),
            1e-13);
@@ -364,14 +366,13 @@ namespace
   {
     std::printf("Modes of a free box at a Poisson ratio of 0.3\n");
     PatchedBody body(Geometry::solid, VolumeMeasure::trace, 0.3);
-    const Eigen::MatrixXd K =
-      dense(body, [&](const Nodal &x) { return body.tangent_product(x); });
+    const Eigen::MatrixXd K = dense(body, [&](const Nodal &x) { return body.tangent_product(x); });
     const Eigen::MatrixXd K_plain = dense(body, [&](const Nodal &x) {
       Nodal y(x.size());
       body.plain->add_stiffness_product(x.data(), y.data());
       return y;
     });
-    const Eigen::MatrixXd M = dense(body, [&](const Nodal &x) {
+    const Eigen::MatrixXd M       = dense(body, [&](const Nodal &x) {
       Nodal y(x.size());
       body.cells->add_mass_product(x.data(), y.data());
       return y;
@@ -406,8 +407,8 @@ namespace
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
       {
         ++size[patch_of[c]];
-        mixed = mixed || material.emplace(patch_of[c], mesh.materials[c]).first->second !=
-                           mesh.materials[c];
+        mixed = mixed ||
+                material.emplace(patch_of[c], mesh.materials[c]).first->second != mesh.materials[c];
       }
     unsigned int smallest = 1000, largest = 0;
     for (const auto &[patch, n] : size)
@@ -420,9 +421,8 @@ namespace
                 smallest >= 4 ? "yes" : "no",
                 largest <= 16 ? "yes" : "no");
     std::printf("  six to ten cells on average: %s\n",
-                mesh.cells.size() > 6 * size.size() && mesh.cells.size() < 10 * size.size() ?
-                  "yes" :
-                  "no");
+                mesh.cells.size() > 6 * size.size() && mesh.cells.size() < 10 * size.size() ? "yes"
+                                                                                            : "no");
   }
 } // namespace
 
@@ -443,9 +443,9 @@ main(int argc, char **argv)
         PatchedBody body(geometry, measure, 0.499);
         if (!body.axisymmetric)
           test_patch(body);
-        const auto bent = body.axisymmetric ?
-                            std::array<double, 9>{{0.1, 0.05, 0., -0.2, -0.1, 0., 0., 0., 0.}} :
-                            rigid_rotation(body, 1.);
+        const auto bent = body.axisymmetric
+                            ? std::array<double, 9>{{0.1, 0.05, 0., -0.2, -0.1, 0., 0., 0., 0.}}
+                            : rigid_rotation(body, 1.);
         const Nodal u   = body.displacement(bent, 0.05);
         test_energy(body, u);
         if (!body.axisymmetric)

@@ -3,11 +3,15 @@
 
 #include <supple/linear_solver.h>
 
+#include <deal.II/lac/vector_memory.h>
+
+#include <functional>
+
 namespace Supple
 {
   /**
-   * The linear system of a body whose patches resist to changes of volume, A = A_c + C D^-1 C^T with
-   * one column of C for each patch, as the saddle point problem it stands for,
+   * The linear system of a body whose patches resist to changes of volume, A = A_c + C D^-1 C^T
+   * with one column of C for each patch, as the saddle point problem it stands for,
    *
    *   [ A_c   C ] [u]   [b]
    *   [ C^T  -D ] [p] = [0],   D_P = W_P / (g kappa),   g = ImplicitOperator::patch_factor(),
@@ -26,47 +30,54 @@ namespace Supple
     void
     update(const SymmetricBlockMatrix &B);
 
-    /** Displacements and mean stresses, of zero. */
-    State
-    vector() const;
+    /**
+     * x = A^-1 b, residual = b - A x.
+     * @param preconditioner has vmult(), about B^-1
+     * @param name           of the solver, for messages
+     * @return the number of iterations
+     * @throws ComputationError if it does not converge
+     */
+    template <class Preconditioner>
+    unsigned int
+    solve(Vector &x,
+          const Vector &b,
+          Vector &residual,
+          const Preconditioner &preconditioner,
+          const SolverParameters &parameters,
+          const std::string &name) const
+    {
+      Preconditioning both{[&](Vector &y, const Vector &z) { preconditioner.vmult(y, z); }, *this};
+      return solve(x, b, residual, both, parameters, name);
+    }
 
     /** y = (the matrix above) x */
     void
     vmult(State &y, const State &x) const;
 
-    /** Divides the stresses by S. */
-    void
-    precondition(Vector &y, const Vector &x) const;
-
   private:
+    /** diag(B, S)^-1 */
+    struct Preconditioning
+    {
+      void
+      vmult(State &y, const State &x) const;
+
+      const std::function<void(Vector &, const Vector &)> of_displacement;
+      const PatchSystem &system;
+    };
+
+    unsigned int
+    solve(Vector &x,
+          const Vector &b,
+          Vector &residual,
+          const Preconditioning &preconditioning,
+          const SolverParameters &parameters,
+          const std::string &name) const;
+
     const ImplicitOperator &A;
     const VolumetricPatches &patches;
     std::vector<double> schur; ///< S of own patches
     mutable Vector scratch;
-  };
-
-
-  /** diag(B, S)^-1 */
-  template <class Preconditioner>
-  class PatchPreconditioner
-  {
-  public:
-    PatchPreconditioner(const PatchSystem &system, const Preconditioner &preconditioner)
-      : system(system)
-      , preconditioner(preconditioner)
-    {
-    }
-
-    void
-    vmult(State &y, const State &x) const
-    {
-      preconditioner.vmult(y.block(0), x.block(0));
-      system.precondition(y.block(1), x.block(1));
-    }
-
-  private:
-    const PatchSystem &system;
-    const Preconditioner &preconditioner;
+    mutable dealii::GrowingVectorMemory<State> memory;
   };
 } // namespace Supple
 
