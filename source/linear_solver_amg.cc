@@ -1,6 +1,6 @@
 #include <supple/error.h>
-#include <supple/linear_solver.h>
 #include <supple/multigrid.h>
+#include <supple/patch_solver.h>
 
 #include <deal.II/lac/solver_cg.h>
 
@@ -130,6 +130,7 @@ namespace Supple
       AmgSolver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort)
         : LinearSolver(A, parameters, effort)
         , preconditioning_matrix(A)
+        , patch_system(A.body.patches ? std::make_unique<PatchSystem>(A) : nullptr)
         , multigrid(preconditioning_matrix.get(), A.body.partitioner)
         , n_owned(A.body.n_owned)
         , correction(A.body.n_local)
@@ -151,6 +152,8 @@ namespace Supple
       do_prepare(const Vector &displacement) override
       {
         preconditioning_matrix.update();
+        if (patch_system)
+          patch_system->update(preconditioning_matrix.get());
         if (built && !rule.due())
           {
             multigrid.refresh_finest();
@@ -199,8 +202,10 @@ namespace Supple
         last_curvature            = 0.;
         x                         = 0.;
         residual                  = b;
-        // In single precision there are no patches.
-        while (!A.body.patches && norm > goal && reduction <= smallest_reduction)
+        if (patch_system)
+          n_iterations = patch_system->solve(
+            x, b, residual, DoublePrecision(multigrid, r, z), parameters, name());
+        while (!patch_system && norm > goal && reduction <= smallest_reduction)
           {
             const double before = norm;
             const double aim    = std::max(reduction * norm, std::min(0.9 * goal, 0.5 * norm));
@@ -215,7 +220,7 @@ namespace Supple
                 norm = set_residual(residual, x, b);
               }
           }
-        if (norm > goal)
+        if (!patch_system && norm > goal)
           n_iterations += solve_in_double_precision(x, b, residual);
         rule.solved(n_iterations);
         return n_iterations;
@@ -313,6 +318,7 @@ namespace Supple
       }
 
       PreconditioningMatrix preconditioning_matrix;
+      std::unique_ptr<PatchSystem> patch_system; ///< null without patches
       Multigrid multigrid;
       RefreshRule rule;
       bool built       = false;

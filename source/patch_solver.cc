@@ -3,6 +3,7 @@
 
 #include <deal.II/lac/solver_minres.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -60,10 +61,28 @@ namespace Supple
   }
 
 
-  /**
-   * The residual of A is that of the saddle point problem with what is left of its second row times
-   * D^-1, which is large: then once more for what is left over, to a smaller one.
-   */
+  State
+  PatchSystem::zero() const
+  {
+    State state(2);
+    A.body.initialize(state.block(0));
+    state.block(1).reinit(patches.partitioner);
+    state.collect_sizes();
+    return state;
+  }
+
+
+  /** The residual of A is that of the first row with what is left of the second one times D^-1. */
+  double
+  PatchSystem::amplification() const
+  {
+    double largest = 1.;
+    for (unsigned int p = 0; p < schur.size(); ++p)
+      largest = std::max(largest, schur[p] * A.patch_factor() * patches.stiffness(p));
+    return dealii::Utilities::MPI::max(largest, A.body.mesh.communicator);
+  }
+
+
   unsigned int
   PatchSystem::solve(Vector &x,
                      const Vector &b,
@@ -72,44 +91,48 @@ namespace Supple
                      const SolverParameters &parameters,
                      const std::string &name) const
   {
-    State right_hand_side(2), solution(2), scratch_state(2);
-    for (State *state : {&right_hand_side, &solution, &scratch_state})
-      {
-        A.body.initialize(state->block(0));
-        state->block(1).reinit(patches.partitioner);
-        state->collect_sizes();
-      }
+    State solution = zero(), correction = zero(), remainder = zero(), product = zero();
     x                         = 0.;
     residual                  = b;
+    remainder.block(0)        = b;
     const double goal         = parameters.tolerance * b.l2_norm();
     double norm               = b.l2_norm();
+    double unit               = 0.; // of the solver's own norm
     unsigned int n_iterations = 0;
-    while (norm > goal && n_iterations < parameters.iteration_limit)
+    for (bool progress = true; progress && norm > goal;)
       {
-        right_hand_side.block(0) = residual;
-        right_hand_side.block(1) = 0.;
-        solution                 = 0.;
-        preconditioning.vmult(scratch_state, right_hand_side);
-        const double size = std::sqrt(scratch_state * right_hand_side);
+        if (n_iterations >= parameters.iteration_limit)
+          {
+            std::ostringstream text;
+            text << "minimal residuals (" << name << ") did not reach the relative residual "
+                 << parameters.tolerance << " in " << n_iterations << " iterations; they got to "
+                 << norm / b.l2_norm();
+            throw ComputationError(text.str());
+          }
+        preconditioning.vmult(product, remainder);
+        const double size = std::sqrt(product * remainder);
+        if (unit == 0.)
+          unit = size / norm / amplification();
         dealii::IterationNumberControl control(parameters.iteration_limit - n_iterations,
-                                               std::max(1e-10, 0.3 * goal / norm) * size);
-        dealii::SolverMinRes<State> solver(control, memory);
-        solver.solve(*this, solution, right_hand_side, preconditioning);
+                                               std::max(0.3 * goal * unit, 1e-13 * size));
+        correction = 0.;
+        dealii::SolverMinRes<State>(control, memory)
+          .solve(*this, correction, remainder, preconditioning);
         n_iterations += std::max(1u, control.last_step());
-        x += solution.block(0);
+        solution += correction;
+
+        vmult(product, solution);
+        remainder.block(0) = b;
+        remainder.block(1) = 0.;
+        remainder -= product;
+        x = solution.block(0);
         A.vmult(residual, x);
         residual.sadd(-1., 1., b);
         if (!all_finite(residual))
           throw ComputationError("the linear solver " + name + " gave no finite numbers");
-        norm = residual.l2_norm();
-      }
-    if (norm > goal)
-      {
-        std::ostringstream text;
-        text << "minimal residuals (" << name << ") did not reach the relative residual "
-             << parameters.tolerance << " in " << n_iterations << " iterations; they got to "
-             << norm / b.l2_norm();
-        throw ComputationError(text.str());
+        progress = residual.l2_norm() < 0.5 * norm; // or it is round-off
+        norm     = residual.l2_norm();
+        unit     = control.last_value() / norm;
       }
     return n_iterations;
   }

@@ -73,6 +73,14 @@ namespace Supple
           const SolverParameters &parameters,
           const std::string &name) const;
 
+    /** Nothing, of displacements and mean stresses. */
+    State
+    zero() const;
+
+    /** How much larger the residual of A may be than that of the saddle point problem. */
+    double
+    amplification() const;
+
     const ImplicitOperator &A;
     const VolumetricPatches &patches;
     std::vector<double> schur; ///< S of own patches
