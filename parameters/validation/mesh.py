@@ -3,9 +3,9 @@
 
     python3 mesh.py cook N FILE            N x N squares, each cut into two triangles
     python3 mesh.py cook-3d N FILE         N x N cubes, one layer, each cut into six tetrahedra
-    python3 mesh.py sphere N FILE          an eighth of a hollow sphere: 3 x (3N/2) x (3N/2) x N cubes, likewise
+    python3 mesh.py sphere N FILE          an eighth of a hollow sphere: N layers of cubes, thinner inside, likewise
 
-The committed ones: cook 32 cook.msh, cook-3d 16 cook-3d.msh, sphere 6 sphere.msh. Inner vertices are moved a little at
+The committed ones: cook 32 cook.msh, cook-3d 16 cook-3d.msh, sphere 12 sphere.msh. Inner vertices are moved a little at
 random, so that no result owes anything to a regular mesh.
 
 Boundary ids: cook 1 left, 2 right, 3 the rest, 4 front and back; sphere 1 inside, 2 outside, 3, 4, 5 in x, y, z = 0.
@@ -96,9 +96,9 @@ def cook(n, name, solid, moved=0.15):
     write(name, points, cells, [(boundary(face), face) for face in surface(cells)])
 
 
-def sphere(n, name, moved=0.15):
+def sphere(n, name, moved=0.1):
     """Radii 1 and 2, in three blocks that meet along the lines x = y, y = z, z = x."""
-    m = 3 * n // 2
+    m = 5 * n // 12
     logical, block_cells = grid((m, m, n))
     number, points, layer, cells = {}, [], [], []
     for s in range(3):
@@ -107,7 +107,7 @@ def sphere(n, name, moved=0.15):
             direction = [1.0, 1.0, 1.0]
             direction[(s + 1) % 3] = math.tan(i / m * math.pi / 4)
             direction[(s + 2) % 3] = math.tan(j / m * math.pi / 4)
-            scale = (1 + k / n) / math.hypot(*direction)
+            scale = 2**(k / n) / math.hypot(*direction)
             point = tuple(scale * d if d > 1e-12 else 0.0 for d in direction)
             key = tuple(round(x, 9) for x in point)
             if key not in number:
