@@ -57,7 +57,9 @@ namespace Supple
         throw InputError(parameters.origin("Material/By id") + ": no cell has the material id " +
                          std::to_string(id) + ".");
 
+    const bool cured = parameters.material.cure == MaterialParameters::LockingCure::patches;
     std::vector<Cell> known_cells;
+    std::vector<PatchCell> patch_cells;
     for (const LocalCell &cell : mesh.parts->cells)
       {
         const bool touches_owned =
@@ -69,6 +71,12 @@ namespace Supple
         IsotropicMaterial cell_is_of = material(cell.material_id);
         if (parameters.material.vertex_mass > 0.)
           cell_is_of.density = 0.;
+        if (cured)
+          {
+            const auto end = cell.nodes.begin() + (mesh.section.plane() ? 3 : 4);
+            patch_cells.push_back({{cell.nodes.begin(), end}, cell.patch, cell_is_of.bulk()});
+            cell_is_of = cell_is_of.deviatoric();
+          }
         known_cells.push_back({cell.nodes, cell_is_of, cell.owned});
         cell_nodes.push_back(cell.nodes);
         cell_index.push_back(cell.index);
@@ -80,6 +88,14 @@ namespace Supple
                                     parameters.material.lumped,
                                     parameters.material.vertex_mass,
                                     mesh.section);
+    if (cured)
+      patches = std::make_unique<VolumetricPatches>(*cells,
+                                                    patch_cells,
+                                                    n_owned,
+                                                    rotation == RotationMethod::none
+                                                      ? VolumeMeasure::trace
+                                                      : parameters.material.volume_measure,
+                                                    mesh.parts->patch_partitioner);
   }
 
 
@@ -98,6 +114,8 @@ namespace Supple
     const PhaseTimer timer(effort, Phase::rotations);
     const GhostValues values(displacement);
     cells->update_rotations(rotation, values.data());
+    if (patches)
+      patches->update(values.data());
     effort.rotations_computed += cell_nodes.size();
   }
 
@@ -109,7 +127,53 @@ namespace Supple
   {
     const PhaseTimer timer(effort, Phase::assembly);
     const GhostValues values(displacement);
-    cells->update_rotation_stiffness(tangent, values.data());
+    if (patches)
+      cells->update_rotation_stiffness(tangent,
+                                       values.data(),
+                                       patches->measure,
+                                       patches->mean_stress(values.data()));
+    else
+      cells->update_rotation_stiffness(tangent, values.data());
+  }
+
+
+  void
+  Body::add_stiffness_product(const double *w, double *y) const
+  {
+    cells->add_stiffness_product(w, y);
+    if (patches)
+      patches->add_product(1., w, y);
+  }
+
+
+  CellSums
+  Body::sums(const double *displacement, const double *velocity) const
+  {
+    CellSums sums = cells->sums(displacement, velocity);
+    if (patches)
+      sums.elastic += patches->energy(displacement);
+    return sums;
+  }
+
+
+  std::vector<CellState>
+  Body::states(const double *displacement) const
+  {
+    std::vector<CellState> states = cells->states(displacement);
+    if (patches)
+      {
+        const std::vector<double> mean_stress = patches->mean_stress(displacement);
+        for (std::size_t c = 0; c < states.size(); ++c)
+          states[c].pressure = -mean_stress[c];
+      }
+    return states;
+  }
+
+
+  double
+  Body::round_off_square() const
+  {
+    return cells->round_off_square() + (patches ? patches->round_off_square() : 0.);
   }
 
 
@@ -118,7 +182,11 @@ namespace Supple
   {
     const PhaseTimer timer(effort, Phase::forces);
     const GhostValues values(displacement);
-    sum_into(force, [&](double *sum) { cells->add_internal_force(values.data(), sum); });
+    sum_into(force, [&](double *sum) {
+      cells->add_internal_force(values.data(), sum);
+      if (patches)
+        patches->add_internal_force(values.data(), sum);
+    });
   }
 
 

@@ -259,6 +259,21 @@ namespace Supple
   }
 
 
+  Cells::NodalPack
+  Cells::divergence(const std::size_t b, const Matrix3<Pack> &P) const
+  {
+    const auto &g = batches[b].gradients;
+    NodalPack f;
+    for (unsigned int a = 0; a < 4; ++a)
+      for (unsigned int i = 0; i < 3; ++i)
+        f[a][i] = P(i, 0) * g[a][0] + P(i, 1) * g[a][1] + P(i, 2) * g[a][2];
+    if (!hoops.empty())
+      for (unsigned int a = 0; a < 3; ++a)
+        f[a][0] += hoops[b].gradient * P(2, 2);
+    return f;
+  }
+
+
   void
   Cells::add_stress_divergence(const std::size_t b,
                                const Matrix3<Pack> &strain,
@@ -268,16 +283,9 @@ namespace Supple
     Matrix3<Pack> P    = stress(batch, strain);
     if (!rotations.empty())
       P = rotations[b] * P;
-    NodalPack f;
-    for (unsigned int a = 0; a < 4; ++a)
-      for (unsigned int i = 0; i < 3; ++i)
-        f[a][i] =
-          batch.volume * (P(i, 0) * batch.gradients[a][0] + P(i, 1) * batch.gradients[a][1] +
-                          P(i, 2) * batch.gradients[a][2]);
-    if (!hoops.empty())
-      for (unsigned int a = 0; a < 3; ++a)
-        f[a][0] += batch.volume * hoops[b].gradient * P(2, 2);
-    scatter(batch, f, force);
+    for (Pack &entry : P.entries)
+      entry *= batch.volume;
+    scatter(batch, divergence(b, P), force);
   }
 
 
@@ -404,17 +412,19 @@ namespace Supple
                         const double mass_factor,
                         const double stiffness_factor,
                         const double rotation_factor,
+                        const double added_bulk,
                         SymmetricBlockMatrix &A) const
   {
     const Batch &batch = batches[b];
-    const Pack lambda  = stiffness_factor * batch.volume * batch.lambda;
+    const Pack lambda  = stiffness_factor * batch.volume * (batch.lambda + added_bulk * batch.mu);
     const Pack mu      = stiffness_factor * batch.volume * batch.mu;
     const Pack same    = mass_factor * mass_entry(b, 0, 0);
     const Pack other   = mass_factor * mass_entry(b, 0, 1);
 
-    const NodalPack h  = rotated_gradients(b);
-    const bool turning = !rotation_stiffness.empty();
-    NodalPack t        = h; // of the trace of the strain
+    const NodalPack h   = rotated_gradients(b);
+    const bool turning  = !rotation_stiffness.empty();
+    const bool swelling = !volume_stiffness.empty();
+    NodalPack t         = h; // of the trace of the strain
     if constexpr (axisymmetric)
       for (unsigned int a = 0; a < 3; ++a)
         t[a][0] += hoops[b].gradient;
@@ -426,9 +436,11 @@ namespace Supple
           diagonal += mass_factor * mass_entry(b, a, c);
         else
           diagonal += a == c ? same : other;
-        std::array<std::array<Pack, 3>, 3> turn;
+        std::array<std::array<Pack, 3>, 3> turn, swell;
         if (turning)
           turn = rotation_block(b, h, a, c);
+        if (swelling)
+          swell = volume_block(b, a, c);
         alignas(64) double block[9][n_lanes];
         for (unsigned int i = 0; i < 3; ++i)
           for (unsigned int j = 0; j < 3; ++j)
@@ -442,6 +454,8 @@ namespace Supple
                 entry += diagonal;
               if (turning)
                 entry += rotation_factor * turn[j][i];
+              if (swelling)
+                entry += rotation_factor * swell[j][i];
               if (axisymmetric && i == 0 && j == 0)
                 entry += 2. * mu * hoops[b].gradient * hoops[b].gradient;
               entry.copy_to(block[3 * i + j], stdx::vector_aligned);
@@ -465,13 +479,14 @@ namespace Supple
   Cells::add_tangent(const double mass_factor,
                      const double stiffness_factor,
                      const double rotation_factor,
-                     SymmetricBlockMatrix &A) const
+                     SymmetricBlockMatrix &A,
+                     const double added_bulk) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
       if (section.axisymmetric())
-        add_tangent_of<true>(b, mass_factor, stiffness_factor, rotation_factor, A);
+        add_tangent_of<true>(b, mass_factor, stiffness_factor, rotation_factor, added_bulk, A);
       else
-        add_tangent_of<false>(b, mass_factor, stiffness_factor, rotation_factor, A);
+        add_tangent_of<false>(b, mass_factor, stiffness_factor, rotation_factor, added_bulk, A);
     if (vertex_mass > 0.)
       A.add_to_diagonal(mass_factor * vertex_mass);
   }
@@ -656,7 +671,10 @@ namespace Supple
         for (unsigned int lane = 0; lane < n_lanes && b * n_lanes + lane < n_cells; ++lane)
           {
             const double c             = std::min(1., std::max(-1., double(cosine[lane])));
-            states[b * n_lanes + lane] = {ratio[lane], von_mises[lane], std::acos(c) * 180. / M_PI};
+            states[b * n_lanes + lane] = {ratio[lane],
+                                          von_mises[lane],
+                                          std::acos(c) * 180. / M_PI,
+                                          -mean[lane]};
           }
       }
     return states;

@@ -30,6 +30,27 @@ namespace Supple
   void
   Cells::update_rotation_stiffness(const Tangent tangent, const double *displacement)
   {
+    update_rotation_stiffness(tangent, displacement, VolumeMeasure::trace, {});
+  }
+
+
+  void
+  Cells::update_rotation_stiffness(const Tangent tangent,
+                                   const double *displacement,
+                                   const VolumeMeasure measure,
+                                   const std::vector<double> &mean_stress)
+  {
+    volume_stiffness.clear();
+    if (tangent == Tangent::consistent && measure == VolumeMeasure::determinant)
+      update_volume_stiffness(displacement, mean_stress);
+
+    const auto mean_stress_of = [&](const std::size_t b) {
+      Pack s(0.);
+      for (unsigned int lane = 0; lane < n_lanes && measure == VolumeMeasure::trace; ++lane)
+        if (b * n_lanes + lane < mean_stress.size())
+          s[lane] = mean_stress[b * n_lanes + lane];
+      return s;
+    };
     if (tangent == Tangent::frozen || rotations.empty())
       {
         rotation_stiffness.clear();
@@ -42,7 +63,7 @@ namespace Supple
         const Matrix3<Pack> S       = rotated_back(b, deformation_gradient(b, displacement));
         const SymmetricEigen eigen  = symmetric_eigen(S);
         const Matrix3<Pack> rotated = rotations[b] * eigen.vectors;
-        const Pack c                = 2. * batch.mu - batch.lambda * (trace(S) - 3.);
+        const Pack c = 2. * batch.mu - batch.lambda * (trace(S) - 3.) - mean_stress_of(b);
 
         Matrix3<Pack> &H = rotation_stiffness[b];
         H                = Matrix3<Pack>{};
@@ -96,6 +117,7 @@ namespace Supple
   void
   Cells::add_rotation_product(const double *w, double *y) const
   {
+    add_volume_product(w, y);
     for (std::size_t b = 0; b < rotation_stiffness.size(); ++b)
       {
         const NodalPack h      = rotated_gradients(b);

@@ -129,8 +129,7 @@ namespace Supple
     const bool moving = state.n_blocks() > 1;
     const GhostValues displacement(state.block(0));
     const GhostValues velocity(state.block(moving ? 1 : 0));
-    const CellSums local =
-      body.cells->sums(displacement.data(), moving ? velocity.data() : nullptr);
+    const CellSums local = body.sums(displacement.data(), moving ? velocity.data() : nullptr);
 
     const MPI_Comm communicator = body.mesh.communicator;
     std::vector<double> sums    = {local.kinetic, local.elastic, double(local.inverted)};

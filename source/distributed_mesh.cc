@@ -15,6 +15,7 @@
 #include <deal.II/numerics/data_out.h>
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 
 namespace Supple
@@ -55,6 +56,26 @@ namespace Supple
     }
 
 
+    /** Each patch goes to the process that has the most of its cells. */
+    template <int dim>
+    void
+    unite_patches(const SerialMesh &mesh, Triangulation<dim, 3> &serial)
+    {
+      std::vector<std::map<unsigned int, unsigned int>> cells_on(
+        *std::max_element(mesh.patches.begin(), mesh.patches.end()) + 1);
+      for (const auto &cell : serial.active_cell_iterators())
+        ++cells_on[mesh.patches[cell->id().get_coarse_cell_id()]][cell->subdomain_id()];
+      for (const auto &cell : serial.active_cell_iterators())
+        {
+          const auto &on = cells_on[mesh.patches[cell->id().get_coarse_cell_id()]];
+          cell->set_subdomain_id(
+            std::max_element(on.begin(), on.end(), [](const auto &a, const auto &b) {
+              return a.second < b.second;
+            })->first);
+        }
+    }
+
+
     /** deal.II's mesh on one process, each cell with the number of the process that shall own it.
      */
     template <int dim>
@@ -71,6 +92,8 @@ namespace Supple
       serial.create_triangulation(mesh.vertices, cell_data<dim>(mesh), boundary);
 
       GridTools::partition_triangulation(n_processes, serial, SparsityTools::Partitioner::metis);
+      if (!mesh.patches.empty())
+        unite_patches(mesh, serial);
       std::vector<unsigned int> cells_of(n_processes);
       for (const auto &cell : serial.active_cell_iterators())
         ++cells_of[cell->subdomain_id()];
@@ -78,6 +101,29 @@ namespace Supple
         throw InputError(std::to_string(n_processes) + " processes are too many for " +
                          std::to_string(mesh.cells.size()) +
                          " cells: one of them would have none.");
+    }
+
+
+    /** The patch of each cell, numbered process by process; nothing if there are none. */
+    template <int dim>
+    std::vector<unsigned int>
+    number_patches(const SerialMesh &mesh, const Triangulation<dim, 3> &serial)
+    {
+      std::map<std::pair<types::subdomain_id, unsigned int>, unsigned int> number;
+      const auto key = [&](const auto &cell) {
+        return std::make_pair(cell->subdomain_id(), mesh.patches[cell->id().get_coarse_cell_id()]);
+      };
+      std::vector<unsigned int> numbers(mesh.patches.size());
+      if (mesh.patches.empty())
+        return numbers;
+      for (const auto &cell : serial.active_cell_iterators())
+        number[key(cell)];
+      unsigned int n = 0;
+      for (auto &entry : number)
+        entry.second = n++;
+      for (const auto &cell : serial.active_cell_iterators())
+        numbers[cell->id().get_coarse_cell_id()] = number[key(cell)];
+      return numbers;
     }
 
 
@@ -102,6 +148,7 @@ namespace Supple
       {
         Triangulation<dim, 3> serial;
         create_serial(mesh, Utilities::MPI::n_mpi_processes(communicator), serial);
+        const std::vector<unsigned int> patch_of = number_patches(mesh, serial);
         triangulation.create_triangulation(
           TriangulationDescription::Utilities::create_description_from_triangulation(serial,
                                                                                      communicator));
@@ -115,7 +162,9 @@ namespace Supple
         n_owned = partitioner->locally_owned_size() / 3;
         n_local = n_owned + partitioner->n_ghost_indices() / 3;
         n_cells = triangulation.n_active_cells();
-        collect(mesh);
+        collect(mesh, patch_of);
+        if (!patch_of.empty())
+          find_patch_partitioner(patch_of, serial);
       }
 
       std::pair<std::string, std::string>
@@ -125,7 +174,7 @@ namespace Supple
       using CellIterator = typename DoFHandler<dim, 3>::active_cell_iterator;
 
       void
-      collect(const SerialMesh &mesh)
+      collect(const SerialMesh &mesh, const std::vector<unsigned int> &patch_of)
       {
         positions.resize(n_local);
         serial_vertex.resize(n_local);
@@ -151,9 +200,28 @@ namespace Supple
             local.material_id = cell->material_id();
             local.index       = cell->active_cell_index();
             local.owned       = cell->is_locally_owned();
+            local.patch       = patch_of.empty() ? 0 : patch_of[cell->id().get_coarse_cell_id()];
             cells.push_back(local);
             collect_faces(cell);
           }
+      }
+
+      void
+      find_patch_partitioner(const std::vector<unsigned int> &patch_of,
+                             const Triangulation<dim, 3> &serial)
+      {
+        const unsigned int n_patches = *std::max_element(patch_of.begin(), patch_of.end()) + 1;
+        const auto rank = Utilities::MPI::this_mpi_process(triangulation.get_communicator());
+        IndexSet owned(n_patches), known(n_patches);
+        for (const auto &cell : serial.active_cell_iterators())
+          if (cell->subdomain_id() == rank)
+            owned.add_index(patch_of[cell->id().get_coarse_cell_id()]);
+        for (const LocalCell &cell : cells)
+          known.add_index(cell.patch);
+        patch_partitioner =
+          std::make_shared<Utilities::MPI::Partitioner>(owned,
+                                                        known,
+                                                        triangulation.get_communicator());
       }
 
       /** The rest of the program counts on three numbers in a row for each vertex. */

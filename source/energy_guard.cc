@@ -41,7 +41,7 @@ namespace Supple
   EnergyGuard::energy(const State &state) const
   {
     const GhostValues displacement(state.block(0)), velocity(state.block(1));
-    const CellSums sums = model.body.cells->sums(displacement.data(), velocity.data());
+    const CellSums sums = model.body.sums(displacement.data(), velocity.data());
     return dealii::Utilities::MPI::sum(sums.kinetic + sums.elastic, model.body.mesh.communicator) +
            model.loads.potential(state.block(0));
   }

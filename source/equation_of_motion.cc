@@ -354,7 +354,7 @@ namespace Supple
   {
     const DampingParameters &damping = model.parameters.damping;
     const GhostValues values(x);
-    sum_into(y, [&](double *sum) { model.body.cells->add_stiffness_product(values.data(), sum); });
+    sum_into(y, [&](double *sum) { model.body.add_stiffness_product(values.data(), sum); });
     y *= damping.stiffness_factor;
     full_mass_product(scratch, x);
     y.add(damping.mass_factor, scratch, damping.viscous, x);

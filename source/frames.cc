@@ -149,9 +149,10 @@ namespace Supple
   Frames::cell_fields(const State &state) const
   {
     std::vector<std::pair<std::string, dealii::Vector<float>>> fields;
-    for (const char *name : {"volume_ratio", "von_mises_stress", "rotation_angle", "material"})
+    for (const char *name :
+         {"volume_ratio", "von_mises_stress", "rotation_angle", "material", "pressure"})
       fields.emplace_back(name, dealii::Vector<float>(body.mesh.parts->n_cells));
-    const std::vector<CellState> states = body.cells->states(state.block(0).begin());
+    const std::vector<CellState> states = body.states(state.block(0).begin());
     for (std::size_t c = 0; c < states.size(); ++c)
       {
         const unsigned int cell = body.cell_index[c];
@@ -159,6 +160,7 @@ namespace Supple
         fields[1].second[cell]  = states[c].von_mises_stress;
         fields[2].second[cell]  = states[c].rotation_angle;
         fields[3].second[cell]  = body.cell_material[c];
+        fields[4].second[cell]  = states[c].pressure;
       }
     return fields;
   }

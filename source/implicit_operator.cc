@@ -75,39 +75,46 @@ namespace Supple
 
 
   void
-  ImplicitOperator::assemble(const double mass_factor,
-                             const double stiffness_factor,
-                             const double rotation_factor,
-                             const double diagonal_term)
+  ImplicitOperator::assemble(SymmetricBlockMatrix &matrix, const double added_bulk) const
   {
     const PhaseTimer timer(effort, Phase::assembly);
-    ++effort.assemblies;
-
-    A.set_zero();
-    body.cells->add_tangent(mass_factor, stiffness_factor, rotation_factor, A);
-    if (diagonal_term != 0.)
-      A.add_to_diagonal(diagonal_term);
+    matrix.set_zero();
+    body.cells->add_tangent(factors.mass, factors.stiffness, factors.rotation, matrix, added_bulk);
+    if (factors.diagonal != 0.)
+      matrix.add_to_diagonal(factors.diagonal);
     for (const std::size_t position : masked_diagonal)
-      A.diagonal[position] = 0.;
+      matrix.diagonal[position] = 0.;
     for (const std::size_t position : masked_lower)
-      A.lower[position] = 0.;
+      matrix.lower[position] = 0.;
   }
 
 
   void
   ImplicitOperator::assemble(const double gamma)
   {
-    assemble(1. + gamma * damping.mass_factor,
-             gamma * gamma + gamma * damping.stiffness_factor,
-             gamma * gamma,
-             gamma * damping.viscous);
+    factors = {1. + gamma * damping.mass_factor,
+               gamma * gamma + gamma * damping.stiffness_factor,
+               gamma * gamma,
+               gamma * damping.viscous};
+    assemble(A, 0.);
+    ++effort.assemblies;
   }
 
 
   void
   ImplicitOperator::assemble_stiffness()
   {
-    assemble(0., 1., 1., 0.);
+    factors = {0., 1., 1., 0.};
+    assemble(A, 0.);
+    ++effort.assemblies;
+  }
+
+
+  void
+  ImplicitOperator::assemble_bounded(SymmetricBlockMatrix &matrix) const
+  {
+    // (kappa / mu) at nu = 0.3
+    assemble(matrix, 13. / 6.);
   }
 
 
@@ -116,6 +123,11 @@ namespace Supple
   {
     const GhostValues values(x);
     A.vmult(y.begin(), values.data());
+    if (body.patches)
+      {
+        body.patches->add_product(factors.stiffness, values.data(), y.begin());
+        constraints.set_zero(y);
+      }
   }
 
 
@@ -133,7 +145,7 @@ namespace Supple
   {
     const GhostValues values(x);
     sum_into(y, [&](double *sum) {
-      body.cells->add_stiffness_product(values.data(), sum);
+      body.add_stiffness_product(values.data(), sum);
       body.cells->add_rotation_product(values.data(), sum);
     });
     constraints.set_zero(y);

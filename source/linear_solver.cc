@@ -127,6 +127,22 @@ namespace Supple
   } // namespace
 
 
+  PreconditioningMatrix::PreconditioningMatrix(const ImplicitOperator &A)
+    : A(A)
+  {
+    if (A.body.patches)
+      bounded = std::make_unique<SymmetricBlockMatrix>(A.matrix().pattern);
+  }
+
+
+  void
+  PreconditioningMatrix::update()
+  {
+    if (bounded)
+      A.assemble_bounded(*bounded);
+  }
+
+
   LinearSolver::LinearSolver(const ImplicitOperator &A,
                              const SolverParameters &parameters,
                              Effort &effort)

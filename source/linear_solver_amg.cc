@@ -1,6 +1,6 @@
 #include <supple/error.h>
-#include <supple/linear_solver.h>
 #include <supple/multigrid.h>
+#include <supple/patch_solver.h>
 
 #include <deal.II/lac/solver_cg.h>
 
@@ -129,7 +129,9 @@ namespace Supple
     public:
       AmgSolver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort)
         : LinearSolver(A, parameters, effort)
-        , multigrid(A.matrix(), A.body.partitioner)
+        , preconditioning_matrix(A)
+        , patch_system(A.body.patches ? std::make_unique<PatchSystem>(A) : nullptr)
+        , multigrid(preconditioning_matrix.get(), A.body.partitioner)
         , n_owned(A.body.n_owned)
         , correction(A.body.n_local)
         , r(A.body.n_local)
@@ -149,6 +151,9 @@ namespace Supple
       void
       do_prepare(const Vector &displacement) override
       {
+        preconditioning_matrix.update();
+        if (patch_system)
+          patch_system->update(preconditioning_matrix.get());
         if (built && !rule.due())
           {
             multigrid.refresh_finest();
@@ -197,7 +202,10 @@ namespace Supple
         last_curvature            = 0.;
         x                         = 0.;
         residual                  = b;
-        while (norm > goal && reduction <= smallest_reduction)
+        if (patch_system)
+          n_iterations = patch_system->solve(
+            x, b, residual, DoublePrecision(multigrid, r, z), parameters, name());
+        while (!patch_system && norm > goal && reduction <= smallest_reduction)
           {
             const double before = norm;
             const double aim    = std::max(reduction * norm, std::min(0.9 * goal, 0.5 * norm));
@@ -212,7 +220,7 @@ namespace Supple
                 norm = set_residual(residual, x, b);
               }
           }
-        if (norm > goal)
+        if (!patch_system && norm > goal)
           n_iterations += solve_in_double_precision(x, b, residual);
         rule.solved(n_iterations);
         return n_iterations;
@@ -309,6 +317,8 @@ namespace Supple
         return control.last_step();
       }
 
+      PreconditioningMatrix preconditioning_matrix;
+      std::unique_ptr<PatchSystem> patch_system; ///< null without patches
       Multigrid multigrid;
       RefreshRule rule;
       bool built       = false;

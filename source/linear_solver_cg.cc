@@ -1,5 +1,5 @@
 #include <supple/error.h>
-#include <supple/linear_solver.h>
+#include <supple/patch_solver.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/solver_cg.h>
@@ -27,16 +27,30 @@ namespace Supple
                          const SolverParameters &parameters,
                          Effort &effort)
         : LinearSolver(A, parameters, effort)
+        , preconditioning_matrix(A)
       {
+        if (A.body.patches)
+          patch_system = std::make_unique<PatchSystem>(A);
       }
 
     protected:
+      void
+      update_preconditioning_matrix()
+      {
+        preconditioning_matrix.update();
+        if (patch_system)
+          patch_system->update(preconditioning_matrix.get());
+      }
+
+      PreconditioningMatrix preconditioning_matrix;
       Preconditioner preconditioner;
 
     private:
       unsigned int
       do_solve(Vector &x, const Vector &b, Vector &residual) override
       {
+        if (patch_system)
+          return patch_system->solve(x, b, residual, preconditioner, parameters, name());
         SolverControl control(parameters.iteration_limit, parameters.tolerance * b.l2_norm());
         SolverCG<Vector> cg(control, memory);
         try
@@ -56,6 +70,7 @@ namespace Supple
         return control.last_step();
       }
 
+      std::unique_ptr<PatchSystem> patch_system; ///< null without patches
       GrowingVectorMemory<Vector> memory;
     };
 
@@ -108,7 +123,8 @@ namespace Supple
       void
       do_prepare(const Vector &) override
       {
-        preconditioner.initialize(A.matrix());
+        update_preconditioning_matrix();
+        preconditioner.initialize(preconditioning_matrix.get());
       }
     };
 
@@ -147,7 +163,7 @@ namespace Supple
       void
       find_rows()
       {
-        const SymmetricBlockMatrix &blocks = A.matrix();
+        const SymmetricBlockMatrix &blocks = preconditioning_matrix.get();
         const SymmetricPattern &pattern    = blocks.pattern;
         rows.resize(pattern.n_owned);
         for (std::size_t i = 0; i < pattern.n_local; ++i)
@@ -240,6 +256,7 @@ namespace Supple
       void
       do_prepare(const Vector &displacement) override
       {
+        update_preconditioning_matrix();
         copy_values();
         find_rigid_motions(displacement);
 

@@ -5,6 +5,7 @@
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 // OpenBLAS has it, other BLAS libraries have not.
@@ -61,7 +62,7 @@ namespace Supple
       {
         make_pattern();
         adjust(factorization);
-        factorization.analyzePattern(matrix);
+        factorization.analyzePattern(whole_matrix());
       }
 
       std::string
@@ -91,6 +92,12 @@ namespace Supple
             }
       }
 
+      const SparseMatrix &
+      whole_matrix() const
+      {
+        return A.body.patches ? matrix : matrix_of_cells;
+      }
+
       void
       make_pattern()
       {
@@ -100,26 +107,54 @@ namespace Supple
           rows.push_back(row);
           first[column + 1] = rows.size();
         });
-        matrix.resize(n, n);
-        matrix.resizeNonZeros(rows.size());
-        std::copy(first.begin(), first.end(), matrix.outerIndexPtr());
-        std::copy(rows.begin(), rows.end(), matrix.innerIndexPtr());
+        matrix_of_cells.resize(n, n);
+        matrix_of_cells.resizeNonZeros(rows.size());
+        std::copy(first.begin(), first.end(), matrix_of_cells.outerIndexPtr());
+        std::copy(rows.begin(), rows.end(), matrix_of_cells.innerIndexPtr());
         copy_values();
       }
 
       void
       copy_values()
       {
-        double *value = matrix.valuePtr();
+        double *value = matrix_of_cells.valuePtr();
         for_each_entry(
           [&](const std::size_t, const std::size_t, const double entry) { *value++ = entry; });
+        if (A.body.patches)
+          {
+            const SparseMatrix square_root = square_root_of_patches();
+            matrix =
+              matrix_of_cells +
+              SparseMatrix(
+                SparseMatrix(square_root * square_root.transpose()).triangularView<Eigen::Upper>());
+          }
+      }
+
+      /** A column for each patch: it couples all nodes of the patch with each other. */
+      SparseMatrix
+      square_root_of_patches() const
+      {
+        const VolumetricPatches &patches = *A.body.patches;
+        std::vector<Eigen::Triplet<double>> entries;
+        for (unsigned int p = 0; p < patches.partitioner->size(); ++p)
+          {
+            const double factor = std::sqrt(A.patch_factor() * patches.stiffness(p));
+            patches.for_each_node(p, [&](const unsigned int node, const std::array<double, 3> &c) {
+              for (unsigned int i = 0; i < (A.body.mesh.section.plane() ? 2 : 3); ++i)
+                if (!A.constraints.holds(3 * node + i))
+                  entries.emplace_back(3 * node + i, p, factor * c[i]);
+            });
+          }
+        SparseMatrix columns(matrix_of_cells.rows(), patches.partitioner->size());
+        columns.setFromTriplets(entries.begin(), entries.end());
+        return columns;
       }
 
       void
       do_prepare(const Vector &) override
       {
         copy_values();
-        factorization.factorize(matrix);
+        factorization.factorize(whole_matrix());
         ++effort.factorizations;
         if (factorization.info() != Eigen::Success)
           throw ComputationError("the matrix is not positive definite (" + solver_name + ")");
@@ -135,7 +170,8 @@ namespace Supple
       }
 
       const std::string solver_name;
-      SparseMatrix matrix;
+      SparseMatrix matrix_of_cells;
+      SparseMatrix matrix; ///< with patches, if there are any
       Factorization factorization;
     };
   } // namespace

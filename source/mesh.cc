@@ -2,6 +2,7 @@
 
 #include <supple/error.h>
 #include <supple/expression.h>
+#include <supple/patches.h>
 #include <supple/plane_check.h>
 
 #include <deal.II/base/utilities.h>
@@ -182,6 +183,14 @@ namespace Supple
     assign_boundary_regions(mesh, parameters);
     measure(mesh);
 
+    if (parameters.material.cure == MaterialParameters::LockingCure::patches)
+      {
+        if (section.geometry == Geometry::plane_stress)
+          throw InputError(parameters.origin("Material/Volumetric locking cure") +
+                           ": in plane stress nothing locks, and there are no patches; it must be "
+                           "none.");
+        mesh.patches = make_patches(mesh);
+      }
     parts = DistributedMesh::create(mesh, communicator);
   }
 

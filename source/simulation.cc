@@ -147,12 +147,12 @@ namespace Supple
     double poisson = 0.;
     for (const auto &[id, n_cells] : mesh.materials)
       poisson = std::max(poisson, body.material(id).poisson());
-    if (poisson > 0.45 && mesh.section.geometry != Geometry::plane_stress)
+    if (poisson > 0.45 && !body.patches && mesh.section.geometry != Geometry::plane_stress)
       {
         std::ostringstream text;
         text << "Linear " << mesh.cell_name()
              << " are too stiff (they lock) at a Poisson ratio above 0.45; it is " << poisson
-             << ".";
+             << ". Material/Volumetric locking cure = patches helps.";
         list.push_back(text.str());
       }
     if (!stationary && parameters.time.method == TimeParameters::Method::ida &&

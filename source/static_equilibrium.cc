@@ -17,8 +17,8 @@ namespace Supple
     model.body.initialize(residual);
     model.body.initialize(correction);
     model.body.initialize(free_residual);
-    force_accuracy = std::sqrt(dealii::Utilities::MPI::sum(model.body.cells->round_off_square(),
-                                                           model.body.mesh.communicator));
+    force_accuracy = std::sqrt(
+      dealii::Utilities::MPI::sum(model.body.round_off_square(), model.body.mesh.communicator));
   }
 
 
@@ -60,7 +60,7 @@ namespace Supple
   StaticEquilibrium::energy(const Vector &displacement, const double load_factor) const
   {
     const GhostValues values(displacement);
-    const double elastic = model.body.cells->sums(values.data(), nullptr).elastic;
+    const double elastic = model.body.sums(values.data(), nullptr).elastic;
     return dealii::Utilities::MPI::sum(elastic, model.body.mesh.communicator) -
            load_factor * (model.loads.force(1., displacement) * displacement);
   }

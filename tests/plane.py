@@ -1,14 +1,11 @@
 """Bodies of triangles in plane strain, plane stress and around an axis, against exact solutions."""
 
-import base64
 import math
 import pathlib
-import re
-import struct
 import tempfile
-import zlib
 
 import runner
+import vtu
 
 folder = pathlib.Path(tempfile.mkdtemp(prefix="supple-"))
 E, NU, LOAD = 1e6, 0.3, 1e4
@@ -208,25 +205,16 @@ for model in MODELS:
     runner.check(momentum < 1e-9 * energy and energy > 1, f"{model}: pressure moves the body, {momentum}")
 
 
-def field(file, name):
-    """An array of a VTU file, of four-byte floats unless it is named types."""
-    text = re.search(rf'Name="{name}"[^>]*>\s*(\S+)', file.read_text()).group(1)
-    blocks, _, _, _ = struct.unpack("<4I", base64.b64decode(text[:24]))
-    runner.check(blocks == 1, "more than one block")
-    data = zlib.decompress(base64.b64decode(text[24:]))
-    return list(data) if name == "types" else [value for (value,) in struct.iter_unpack("<f", data)]
-
-
 # What ParaView gets: triangles, and the stress and volume ratio that each model has.
 for model, stress, volume in [("plane strain", math.sqrt(1 - NU + NU**2), (1 - 2 * NU) * (1 + NU)),
                               ("plane stress", 1, 1 - NU), ("axisymmetric", 1, 1 - 2 * NU)]:
     results = runner.simulate(PLATE, {**pulled, **section(model)[0], "Output/Frames": "every", "Output/Every": 1})
     file = results.folder / "solution" / "frame_0001.vtu"
-    runner.check(set(field(file, "types")) == {5}, "not all cells are triangles")
-    for value in field(file, "von_mises_stress"):
+    runner.check(set(vtu.field(file, "types")) == {5}, "not all cells are triangles")
+    for value in vtu.field(file, "von_mises_stress"):
         near(value, stress * LOAD, 1e-5, f"{model}: von Mises stress")
-    for value in field(file, "volume_ratio"):
+    for value in vtu.field(file, "volume_ratio"):
         near(value - 1, volume * LOAD / E, 0.02, f"{model}: volume ratio")
 turned = {**free, "Start/Rotation": "0, 0, 100", "Corotation/Rotation": "polar", "Output/Frames": "every", "Time/Steps": 1}
-for value in field(runner.simulate(PLATE, turned).folder / "solution" / "frame_0000.vtu", "rotation_angle"):
+for value in vtu.field(runner.simulate(PLATE, turned).folder / "solution" / "frame_0000.vtu", "rotation_angle"):
     near(value, 100, 1e-5, "rotation angle")

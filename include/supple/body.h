@@ -4,7 +4,7 @@
 #include <supple/cells.h>
 #include <supple/effort.h>
 #include <supple/mesh.h>
-#include <supple/vector.h>
+#include <supple/volumetric_patches.h>
 
 #include <memory>
 
@@ -38,6 +38,9 @@ namespace Supple
 
     std::unique_ptr<Cells> cells;
 
+    /** What resists to a change of volume in place of the cells; null if they do it themselves. */
+    std::unique_ptr<VolumetricPatches> patches;
+
     /** Degrees of freedom on all processes, without those along z of a plane body. */
     unsigned int
     n_dofs() const;
@@ -57,6 +60,22 @@ namespace Supple
     /** What the derivatives of the rotations add to K', see Cells. */
     void
     update_rotation_stiffness(Tangent tangent, const Vector &displacement, Effort &effort) const;
+
+    /** y += K' w, without what rotations add. */
+    void
+    add_stiffness_product(const double *w, double *y) const;
+
+    /** As Cells::sums(), with the energy of patches. */
+    CellSums
+    sums(const double *displacement, const double *velocity) const;
+
+    /** As Cells::states(), with the pressure of patches. */
+    std::vector<CellState>
+    states(const double *displacement) const;
+
+    /** As Cells::round_off_square(), with that of patches. */
+    double
+    round_off_square() const;
 
     /** f = sum R K (R^T x - X) on owned nodes, held ones included, with the rotations of the last
      * update. */

@@ -56,6 +56,19 @@ namespace Supple
     double volume_ratio;
     double von_mises_stress; ///< [Pa]
     double rotation_angle;   ///< [degrees]
+    double pressure;         ///< [Pa], positive where the cell is squeezed
+  };
+
+
+  /**
+   * How much a cell's volume has changed, in a measure that is linear in the displacement as long
+   * as H is kept: V theta = constant + sum_a gradient_a . u_a.
+   */
+  struct VolumeChange
+  {
+    double volume;                                  ///< V at rest [m^3]
+    double constant;                                ///< [m^3]
+    std::array<std::array<double, 3>, 4> gradients; ///< V H g_a [m^2], nodes ascending
   };
 
 
@@ -133,6 +146,27 @@ namespace Supple
     void
     update_rotation_stiffness(Tangent tangent, const double *displacement);
 
+    /**
+     * The same where the resistance to a change of volume is not the cells' own: what mean stresses
+     * [Pa], one for each cell, add by the second derivative of a cell's volume change. It is
+     * indefinite for the determinant: there the definite tangent goes without it.
+     */
+    void
+    update_rotation_stiffness(Tangent tangent,
+                              const double *displacement,
+                              VolumeMeasure measure,
+                              const std::vector<double> &mean_stress);
+
+    /**
+     * Of each cell in the order given to the constructor, about this displacement: theta = H : F -
+     * h with H = R, h = 3 (trace, with the rotations that are kept) or H = cof F, h = 2 det F + 1
+     * (determinant). With the hoop strain of an axisymmetric body.
+     */
+    void
+    volume_changes(VolumeMeasure measure,
+                   const double *displacement,
+                   std::vector<VolumeChange> &changes) const;
+
     /** y += (that part of K') w */
     void
     add_rotation_product(const double *w, double *y) const;
@@ -141,12 +175,14 @@ namespace Supple
     void
     add_mass_product(const double *w, double *y) const;
 
-    /** A += mass_factor M + stiffness_factor K' + rotation_factor (what rotations add to K'). */
+    /** A += mass_factor M + stiffness_factor K' + rotation_factor (what rotations add to K'), with
+     * this many shear moduli added to the bulk modulus. */
     void
     add_tangent(double mass_factor,
                 double stiffness_factor,
                 double rotation_factor,
-                SymmetricBlockMatrix &A) const;
+                SymmetricBlockMatrix &A,
+                double added_bulk = 0.) const;
 
     /** M += the mass matrix. */
     void
@@ -260,6 +296,7 @@ namespace Supple
                    double mass_factor,
                    double stiffness_factor,
                    double rotation_factor,
+                   double added_bulk,
                    SymmetricBlockMatrix &A) const;
 
     /** R g_a */
@@ -269,6 +306,24 @@ namespace Supple
     /** The columns of V [h_a]^T H [h_c] in the body's frame, [h] w = h x w. */
     std::array<std::array<Pack, 3>, 3>
     rotation_block(std::size_t batch, const NodalPack &h, unsigned int a, unsigned int c) const;
+
+    /** The columns of the second derivative of the volume energy, nodes a and c. */
+    std::array<std::array<Pack, 3>, 3>
+    volume_block(std::size_t batch, unsigned int a, unsigned int c) const;
+
+    /** V s times the derivative of cof F in a direction G, with hoop strain. */
+    Matrix3<Pack>
+    volume_stress(std::size_t batch, const Matrix3<Pack> &G) const;
+
+    void
+    update_volume_stiffness(const double *displacement, const std::vector<double> &mean_stress);
+
+    void
+    add_volume_product(const double *w, double *y) const;
+
+    /** Node by node, P g_a and the hoop's part. */
+    NodalPack
+    divergence(std::size_t batch, const Matrix3<Pack> &P) const;
 
     void
     add_deformation(const double *displacement, CellSums &sums) const;
@@ -292,6 +347,7 @@ namespace Supple
     std::vector<Hoop> hoops; ///< of an axisymmetric body, otherwise none
     std::vector<Matrix3<Pack>> rotations;
     std::vector<Matrix3<Pack>> rotation_stiffness; ///< V R H R^T; empty for frozen rotations
+    std::vector<Matrix3<Pack>> volume_stiffness;   ///< V s F; empty but for determinants
     std::vector<Slots> slots;
     std::vector<std::array<double, 3>> positions;
   };

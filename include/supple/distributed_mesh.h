@@ -21,6 +21,7 @@ namespace Supple
     std::array<unsigned int, 4> nodes; ///< local numbers; the third of a triangle stands twice
     unsigned int material_id;
     unsigned int index; ///< its place in values by cell
+    unsigned int patch; ///< number of its patch on all processes, if the mesh has patches
     bool owned;         ///< true on exactly one process
   };
 
@@ -73,6 +74,10 @@ namespace Supple
     unsigned int n_local;                         ///< nodes, ghosts included
     std::vector<std::array<double, 3>> positions; ///< of the local nodes [m]
     std::vector<unsigned int> serial_vertex;      ///< their indices in the mesh that was given
+
+    /** Of the patches, all cells of which are on one process: those of its cells and, as ghosts,
+     * those of its ghost cells. Null if the mesh has none. */
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> patch_partitioner;
 
     unsigned int n_cells;         ///< length of values by cell
     std::vector<LocalCell> cells; ///< this process's own and the ghosts next to them

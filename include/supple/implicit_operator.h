@@ -13,6 +13,9 @@ namespace Supple
    * The operator every implicit method leads to, A = M + g D + g^2 K' with D = a M + b K' + c I (or
    * K' alone for a static problem), on this process's rows.
    *
+   * Where patches resist to changes of volume, matrix() is what the cells do alone, and the rest of
+   * A is patch_factor() times the tangent of VolumetricPatches, kept as one vector a patch.
+   *
    * Held degrees of freedom have a diagonal entry alone; vectors are zero there, and so is then the
    * product.
    */
@@ -44,6 +47,18 @@ namespace Supple
     void
     stiffness_vmult(Vector &y, const Vector &x) const;
 
+    /** Sets a matrix to the last A without patches, but with cells that resist to a change of
+     * volume about as much as to shear: to precondition with. */
+    void
+    assemble_bounded(SymmetricBlockMatrix &matrix) const;
+
+    /** What the tangent of patches is to be multiplied with. */
+    double
+    patch_factor() const
+    {
+      return factors.stiffness;
+    }
+
     const SymmetricBlockMatrix &
     matrix() const
     {
@@ -67,11 +82,14 @@ namespace Supple
     const DampingParameters &damping;
 
   private:
+    /** What A is made of. */
+    struct Factors
+    {
+      double mass = 0., stiffness = 0., rotation = 0., diagonal = 0.;
+    };
+
     void
-    assemble(double mass_factor,
-             double stiffness_factor,
-             double rotation_factor,
-             double diagonal_term);
+    assemble(SymmetricBlockMatrix &matrix, double added_bulk) const;
 
     SymmetricPattern
     make_pattern() const;
@@ -82,6 +100,7 @@ namespace Supple
     Effort &effort;
     const SymmetricPattern pattern;
     SymmetricBlockMatrix A;
+    Factors factors;
     std::unique_ptr<SymmetricScalarMatrix> M;
     std::vector<std::size_t> masked_lower;    ///< positions in A.lower
     std::vector<std::size_t> masked_diagonal; ///< positions in A.diagonal

@@ -82,6 +82,29 @@ namespace Supple
   };
 
 
+  /** What iterative solvers make their preconditioner of: the matrix of A or, where patches resist
+   * to changes of volume, one with bounded bulk modulus. */
+  class PreconditioningMatrix
+  {
+  public:
+    explicit PreconditioningMatrix(const ImplicitOperator &A);
+
+    /** To be called whenever A has changed. */
+    void
+    update();
+
+    const SymmetricBlockMatrix &
+    get() const
+    {
+      return bounded ? *bounded : A.matrix();
+    }
+
+  private:
+    const ImplicitOperator &A;
+    std::unique_ptr<SymmetricBlockMatrix> bounded;
+  };
+
+
   /** Eigen's SimplicialLDLT: one process, small bodies. */
   std::unique_ptr<LinearSolver>
   make_ldlt_solver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort);

@@ -3,12 +3,34 @@
 
 namespace Supple
 {
+  /** How much larger a cell has become than at rest. */
+  enum class VolumeMeasure
+  {
+    trace,      ///< tr(R^T F) - 3: exact for small strains
+    determinant ///< det F - 1: exact
+  };
+
+
   /** An isotropic linear elastic material. */
   struct IsotropicMaterial
   {
     double lambda;  ///< Lame's first parameter [Pa]
     double mu;      ///< shear modulus [Pa]
     double density; ///< [kg/m^3]
+
+    /** Bulk modulus [Pa]. */
+    double
+    bulk() const
+    {
+      return lambda + 2. / 3. * mu;
+    }
+
+    /** The same material without resistance to a change of volume. */
+    IsotropicMaterial
+    deviatoric() const
+    {
+      return {-2. / 3. * mu, mu, density};
+    }
 
     /** Poisson's ratio. */
     double

@@ -124,15 +124,23 @@ namespace Supple
       lame
     };
 
-    Constants constants = Constants::young_poisson;
-    double young        = 1e6;
-    double poisson      = 0.3;
-    double lambda       = 1e6;
-    double mu           = 1e6;
-    double density      = 1000.;
-    bool lumped         = false;
-    double vertex_mass  = 0.; ///< [kg]; if positive, densities count for nothing
-    std::string by_id;        ///< as written
+    enum class LockingCure
+    {
+      none,
+      patches
+    };
+
+    Constants constants          = Constants::young_poisson;
+    LockingCure cure             = LockingCure::none;
+    VolumeMeasure volume_measure = VolumeMeasure::determinant; ///< of patches
+    double young                 = 1e6;
+    double poisson               = 0.3;
+    double lambda                = 1e6;
+    double mu                    = 1e6;
+    double density               = 1000.;
+    bool lumped                  = false;
+    double vertex_mass           = 0.; ///< [kg]; if positive, densities count for nothing
+    std::string by_id;                 ///< as written
 
     void
     declare(dealii::ParameterHandler &prm);

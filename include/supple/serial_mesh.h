@@ -27,6 +27,7 @@ namespace Supple
     std::vector<dealii::Point<3>> vertices;         ///< [m]
     std::vector<std::array<unsigned int, 4>> cells; ///< of which the first `dimension` + 1 count
     std::vector<unsigned int> materials;            ///< of the cells
+    std::vector<unsigned int> patches;              ///< of the cells, or none; see make_patches()
     std::vector<BoundaryFace> boundary;
 
     dealii::ArrayView<const unsigned int>
