@@ -189,7 +189,16 @@ namespace Supple
     }
 
 
-    /** Against gravity; without it, y unless the body is longest in it, else z. */
+    /** The scene with the folder of its file: "bar/large". */
+    std::string
+    full_name(const Parameters &parameters)
+    {
+      const std::string folder = std::filesystem::path(parameters.scene_folder).filename().string();
+      return (folder.empty() || folder[0] == '.' ? "" : folder + "/") + parameters.scene_name;
+    }
+
+
+    /** Against gravity; null without it. */
     Json
     upward(const Parameters &parameters)
     {
@@ -209,7 +218,7 @@ namespace Supple
     parameters.print(used);
     Json data = {
       {"kind", "run"},
-      {"name", parameters.scene_name},
+      {"name", full_name(parameters)},
       {"static", parameters.time.problem == TimeParameters::Problem::stationary},
       {"up", upward(parameters)},
       {"summary", Json::parse(summary)},

@@ -73,6 +73,7 @@ export class TimeChart {
         ...lineStyle(number)}))],
       cursor: {sync: {key: 'time'}, drag: {x: true, y: false}, points: {size: 6}},
       legend: {live: true},
+      hooks: {ready: [() => queueMicrotask(() => this.set(this.time))], setSize: [() => this.set(this.time)]},
       padding: [8, 12, 0, 0],
     }, this.data, this.holder);
     this.line = element('div', {class: 'player-line'});
@@ -83,7 +84,8 @@ export class TimeChart {
   }
 
   set(time) {
-    if (!this.chart) return;
+    this.time = time;
+    if (!this.line || time === undefined) return;
     const place = this.chart.valToPos(time, 'x');
     this.line.hidden = !(place >= 0 && place <= this.chart.over.clientWidth);
     this.line.style.transform = `translateX(${place}px)`;

@@ -47,13 +47,21 @@ export function toggle(text, title, on, changed) {
   return button;
 }
 
-export const isDark = () => matchMedia('(prefers-color-scheme: dark)').matches;
+const themed = [];
+let colours = new Map();
 
+/** @param changed is called when the page goes from light to dark or back */
 export function onThemeChange(changed) {
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', changed);
+  themed.push(changed);
 }
 
-/** A colour of the style sheet. */
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
+  colours = new Map();
+  themed.forEach((changed) => changed());
+});
+
+/** A colour of the style sheet; asked for often, and slow to find. */
 export function styleColour(name) {
-  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  if (!colours.has(name)) colours.set(name, getComputedStyle(document.documentElement).getPropertyValue(name).trim());
+  return colours.get(name);
 }

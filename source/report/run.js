@@ -2,7 +2,7 @@
 
 import {TimeChart} from './charts.js';
 import {choice, element} from './dom.js';
-import {count, digits, quantity} from './format.js';
+import {count, digits, prefixed, quantity} from './format.js';
 import {Player} from './player.js';
 import {parameterList, summaryList} from './lists.js';
 import {Stage} from './stage.js';
@@ -27,7 +27,8 @@ function notices({status, warnings}) {
 function header(data, surface) {
   const {summary} = data;
   const [state] = summary.status.split(':');
-  const extent = surface ? surface.extent.filter((_, d) => d < 2 || !surface.flat).map((length) => digits(length, 3)).join(' × ') + ' m' : null;
+  const [size, metres] = prefixed(surface ? Math.max(...surface.extent) : 1, 'm');
+  const extent = surface ? `${surface.extent.filter((_, d) => d < 2 || !surface.flat).map((length) => digits(length / size, 3)).join(' × ')} ${metres}` : null;
   const facts = [
     `${digits(summary.cells)} cells, ${digits(summary.vertices)} vertices${extent ? ` in ${extent}` : ''}`,
     summary.method,
