@@ -45,17 +45,17 @@ function mount(options, data, holder) {
   return chart;
 }
 
-/** Curves of one quantity over time with a line at the player's. */
+/** Curves of one quantity over time, or over something that rises with it, with a line at the player's. */
 export class TimeChart {
   /**
-   * @param title with the unit that is put into it  @param curves [[name, column], ...]
-   * @param x {label, values}  @param chosen is called with a time that is clicked on
+   * @param title to which the unit is added  @param curves [[name, column], ...]
+   * @param x {name, label, values}; with times where the values are none  @param chosen is called with a time that is clicked on
    */
-  constructor(title, unit, curves, x, chosen, note) {
+  constructor(title, unit, curves, x, chosen) {
     const [size, symbol] = prefixed(largest(curves.map(([, column]) => column)), unit);
     this.heading = element('h3', {}, title + (symbol ? ` in ${symbol}` : ''));
     this.holder = element('div', {class: 'chart'});
-    this.root = element('section', {class: 'curves', 'aria-label': title}, this.heading, this.holder, note ? element('p', {class: 'note'}, note) : null);
+    this.root = element('section', {class: 'curves', 'aria-label': title}, this.heading, this.holder);
     this.x = x;
     this.data = [x.values, ...curves.map(([, column]) => column.map((value) => (value === null ? null : value / size)))];
     this.curves = curves;
@@ -70,8 +70,8 @@ export class TimeChart {
       scales: {x: {time: false}},
       axes: [axis(this.x.label, {size: 34, values: fitting.values}), axis(null, fitting)],
       series: [{label: this.x.name, value}, ...this.curves.map(([label], number) => ({label, value, width: 1.6, points: {show: this.x.values.length < 25, size: 5},
-        ...lineStyle(number)}))],
-      cursor: {sync: {key: 'time'}, drag: {x: true, y: false}, points: {size: 6}},
+        ...lineStyle(number), ...(label === 'total' ? {dash: [6, 5]} : {})}))],
+      cursor: {...(this.x.times ? {} : {sync: {key: 'time'}}), drag: {x: true, y: false}, points: {size: 6}},
       legend: {live: true},
       hooks: {ready: [() => queueMicrotask(() => this.set(this.time))], setSize: [() => this.set(this.time)]},
       padding: [8, 12, 0, 0],
@@ -79,19 +79,20 @@ export class TimeChart {
     this.line = element('div', {class: 'player-line'});
     this.chart.over.append(this.line);
     this.chart.over.addEventListener('click', (event) => {
-      if (this.chart.select.width < 2) this.chosen(this.chart.posToVal(event.offsetX, 'x'));
+      if (this.chart.select.width >= 2) return;
+      this.chosen(this.x.times ? this.x.times[this.chart.posToIdx(event.offsetX)] : this.chart.posToVal(event.offsetX, 'x'));
     });
   }
 
   set(time) {
     this.time = time;
     if (!this.line || time === undefined) return;
-    const place = this.chart.valToPos(time, 'x');
+    const idx = Math.max(0, (this.x.times ?? this.x.values).findLastIndex((t) => t <= time * (1 + 1e-9)));
+    const place = this.chart.valToPos(this.x.times ? this.x.values[idx] : time, 'x');
     this.line.hidden = !(place >= 0 && place <= this.chart.over.clientWidth);
     this.line.style.transform = `translateX(${place}px)`;
     if (this.chart.cursor.left >= 0) return; // the pointer shows another instant
-    const idx = this.x.values.findLastIndex((t) => t <= time * (1 + 1e-9));
-    this.chart.setLegend({idx: Math.max(0, idx)});
+    this.chart.setLegend({idx});
   }
 }
 

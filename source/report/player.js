@@ -18,6 +18,8 @@ export class Player {
     this.playing = false;
     this.untouched = true;
     [this.unitSize, this.unit] = stationary ? [1, ''] : prefixed(this.last, 's');
+    const length = (this.last - this.first) / this.unitSize;
+    this.decimals = length > 0 ? Math.min(6, Math.max(0, 3 - Math.floor(Math.log10(length)))) : 3;
     this.root = this.makeControls();
     document.addEventListener('keydown', (event) => this.key(event));
   }
@@ -54,7 +56,7 @@ export class Player {
     const length = this.last - this.first;
     this.slider.value = length > 0 ? 1000 * (this.time - this.first) / length : 0;
     const frame = this.times.findLastIndex((t) => t <= this.time * (1 + 1e-12)) + 1;
-    const shown = (this.time / this.unitSize).toFixed(3);
+    const shown = (this.time / this.unitSize).toFixed(this.decimals);
     this.label.textContent = `${this.stationary ? 'load ' : ''}${shown}${this.unit ? '\u202f' + this.unit : ''} · frame ${frame}/${digits(this.times.length)}`;
     this.slider.setAttribute('aria-valuetext', this.label.textContent);
     this.changed(this.time);

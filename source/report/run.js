@@ -59,9 +59,9 @@ class Charts {
     return {name: this.data.static ? 'load' : 'time', label: this.data.static ? 'load factor' : 'time in s', values: table.columns.time};
   }
 
-  add(title, unit, curves, table, note, parent = this.root) {
+  add(title, unit, curves, table, parent = this.root, x = this.x(table)) {
     if (curves.length === 0 || table.columns.time.length < 2) return null;
-    const chart = new TimeChart(title, unit, curves, this.x(table), this.chosen, note);
+    const chart = new TimeChart(title, unit, curves, x, this.chosen);
     this.all.push(chart);
     parent.append(chart.root);
     return chart;
@@ -82,10 +82,10 @@ class Charts {
 
   addMore(table, some) {
     this.more = element('details', {class: 'more'}, element('summary', {}, 'Iterations, inverted cells, momenta'));
-    this.add('Iterations in a step', '', some(['newton_iterations', 'linear_iterations']), table, null, this.more);
-    this.add('Inverted cells', '', some(['inverted']), table, null, this.more);
-    this.add('Momentum', 'kg m/s', some(['px', 'py', 'pz']), table, null, this.more);
-    this.add('Angular momentum', 'kg m²/s', some(['lx', 'ly', 'lz']), table, null, this.more);
+    this.add('Iterations in a step', '', some(['newton_iterations', 'linear_iterations']), table, this.more);
+    this.add('Inverted cells', '', some(['inverted']), table, this.more);
+    this.add('Momentum', 'kg m/s', some(['px', 'py', 'pz']), table, this.more);
+    this.add('Angular momentum', 'kg m²/s', some(['lx', 'ly', 'lz']), table, this.more);
     this.more.addEventListener('toggle', () => this.draw());
     if (this.more.children.length > 1) this.tail = this.more;
   }
@@ -100,15 +100,28 @@ class Charts {
       holder.replaceChildren();
       for (const [letter, title, unit] of [['u', 'Displacement', 'm'], ['v', 'Velocity', 'm/s'], ['f', 'Force that holds it (reaction)', 'N']]) {
         const curves = ['x', 'y', 'z'].map((d) => [d, table.columns[`${name}.${letter}${d}`]]).filter(([, column]) => tells(column));
-        const chart = this.add(title, unit, curves, table, null, holder);
+        const chart = this.add(title, unit, curves, table, holder);
         if (chart) chart.parent = holder;
       }
+      this.addForceAgainstWay(name, table, holder);
       if (holder.children.length === 0) holder.append(element('p', {class: 'note'}, 'It does not move, and no force holds it.'));
       this.draw();
     };
     const moving = names.find((name) => ['x', 'y', 'z'].some((d) => tells(table.columns[`${name}.u${d}`]))) ?? names[0];
     this.root.append(element('div', {class: 'probe-head'}, element('h2', {}, 'Probe'), names.length > 1 ? choice('', names.map((name) => [name, name]), moving, show) : element('span', {}, names[0])), holder);
     this.showProbe = () => show(moving);
+  }
+
+  /** Of a static run, where a vertex or region is pushed: over the component of its displacement that is largest. */
+  addForceAgainstWay(name, {columns}, holder) {
+    const forces = ['x', 'y', 'z'].map((d) => [d, columns[`${name}.f${d}`]]).filter(([, column]) => tells(column));
+    const size = (column) => Math.max(...column.map(Math.abs));
+    const way = ['x', 'y', 'z'].map((d) => columns[`${name}.u${d}`]).reduce((a, b) => (size(b) > size(a) ? b : a)).map(Math.abs);
+    if (!this.data.static || forces.length === 0 || way.some((u, row) => row > 0 && !(u > way[row - 1]))) return;
+    const [unit, symbol] = prefixed(way.at(-1), 'm');
+    const x = {name: 'displacement', label: `displacement in ${symbol}`, values: way.map((u) => u / unit), times: columns.time};
+    const chart = this.add('Force against displacement', 'N', forces, {columns}, holder, x);
+    if (chart) chart.parent = holder;
   }
 
   /** The depth of a profile's vertex farthest down tells most over time. */
