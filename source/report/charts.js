@@ -48,12 +48,12 @@ function mount(options, data, holder) {
 /** Curves of one quantity over time, or over something that rises with it, with a line at the player's. */
 export class TimeChart {
   /**
-   * @param title to which the unit is added  @param curves [[name, column], ...]
+   * @param title to which the unit is added, before a comma if there is one  @param curves [[name, column], ...]
    * @param x {name, label, values}; with times where the values are none  @param chosen is called with a time that is clicked on
    */
   constructor(title, unit, curves, x, chosen) {
     const [size, symbol] = prefixed(largest(curves.map(([, column]) => column)), unit);
-    this.heading = element('h3', {}, title + (symbol ? ` in ${symbol}` : ''));
+    this.heading = element('h3', {}, title.replace(/^[^,]*/, (name) => name + (symbol ? ` in ${symbol}` : '')));
     this.holder = element('div', {class: 'chart'});
     this.root = element('section', {class: 'curves', 'aria-label': title}, this.heading, this.holder);
     this.x = x;

@@ -1,6 +1,6 @@
 // Numbers with units, as text.
 
-const PREFIXES = [[1e9, 'G'], [1e6, 'M'], [1e3, 'k'], [1, ''], [1e-3, 'm'], [1e-6, 'µ'], [1e-9, 'n']];
+const PREFIXES = [[1e9, 'G'], [1e6, 'M'], [1e3, 'k'], [1, ''], [1e-3, 'm'], [1e-6, 'µ'], [1e-9, 'n'], [1e-12, 'p']];
 
 /** How much of a unit its prefix stands for, and the unit with it, for numbers up to this size. */
 export function prefixed(largest, unit) {

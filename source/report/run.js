@@ -28,7 +28,7 @@ function header(data, surface) {
   const {summary} = data;
   const [state] = summary.status.split(':');
   const [size, metres] = prefixed(surface ? Math.max(...surface.extent) : 1, 'm');
-  const extent = surface ? `${surface.extent.filter((_, d) => d < 2 || !surface.flat).map((length) => digits(length / size, 3)).join(' × ')} ${metres}` : null;
+  const extent = surface ? `${surface.extent.filter((_, d) => d < 2 || !surface.flat).map((length) => digits(length / size, 3)).join('\u00a0× ')}\u00a0${metres}` : null;
   const facts = [
     `${digits(summary.cells)} cells, ${digits(summary.vertices)} vertices${extent ? ` in ${extent}` : ''}`,
     summary.method,
@@ -40,7 +40,16 @@ function header(data, surface) {
 }
 
 /** Whether there is anything to see in a column. */
-const tells = (column) => column && column.some((value) => value !== null && value !== 0);
+const size = (column) => column.reduce((most, value) => Math.max(most, Math.abs(value ?? 0)), 0);
+const tells = (column) => column && size(column) > 0;
+
+/** The components x, y, z of a quantity that are more than round-off. */
+function components(columns, name) {
+  const all = ['x', 'y', 'z'].map((d) => [d, columns[name + d]]).filter(([, column]) => tells(column));
+  const most = Math.max(...all.map(([, column]) => size(column)));
+  return all.filter(([, column]) => size(column) > 1e-10 * most);
+}
+
 const varies = (column) => column && column.some((value) => value !== null && Math.abs(value - column.at(-1)) > 1e-6 * Math.abs(value));
 
 class Charts {
@@ -98,9 +107,8 @@ class Charts {
     const show = (name) => {
       this.all = this.all.filter((chart) => chart.parent !== holder);
       holder.replaceChildren();
-      for (const [letter, title, unit] of [['u', 'Displacement', 'm'], ['v', 'Velocity', 'm/s'], ['f', 'Force that holds it (reaction)', 'N']]) {
-        const curves = ['x', 'y', 'z'].map((d) => [d, table.columns[`${name}.${letter}${d}`]]).filter(([, column]) => tells(column));
-        const chart = this.add(title, unit, curves, table, holder);
+      for (const [letter, title, unit] of [['u', 'Displacement', 'm'], ['v', 'Velocity', 'm/s'], ['f', 'Force, which holds or moves it', 'N']]) {
+        const chart = this.add(title, unit, components(table.columns, `${name}.${letter}`), table, holder);
         if (chart) chart.parent = holder;
       }
       this.addForceAgainstWay(name, table, holder);
@@ -114,13 +122,12 @@ class Charts {
 
   /** Of a static run, where a vertex or region is pushed: over the component of its displacement that is largest. */
   addForceAgainstWay(name, {columns}, holder) {
-    const forces = ['x', 'y', 'z'].map((d) => [d, columns[`${name}.f${d}`]]).filter(([, column]) => tells(column));
-    const size = (column) => Math.max(...column.map(Math.abs));
+    const forces = components(columns, `${name}.f`);
     const way = ['x', 'y', 'z'].map((d) => columns[`${name}.u${d}`]).reduce((a, b) => (size(b) > size(a) ? b : a)).map(Math.abs);
     if (!this.data.static || forces.length === 0 || way.some((u, row) => row > 0 && !(u > way[row - 1]))) return;
     const [unit, symbol] = prefixed(way.at(-1), 'm');
     const x = {name: 'displacement', label: `displacement in ${symbol}`, values: way.map((u) => u / unit), times: columns.time};
-    const chart = this.add('Force against displacement', 'N', forces, {columns}, holder, x);
+    const chart = this.add('Force, against displacement', 'N', forces, {columns}, holder, x);
     if (chart) chart.parent = holder;
   }
 
@@ -186,7 +193,7 @@ export function showRun(data, surfaceText, page) {
     'Drag to turn, wheel or two fingers to zoom, right button to move. Keys: space plays, ← → go from frame to frame, Home and End; w mesh, g undeformed; in the view arrows turn, + − zoom, 0 resets. A click on a curve goes to that instant, dragging zooms in, a double click shows all.'];
   page.replaceChildren(header(data, surface), ...notices(data.summary),
     element('div', {class: surface ? 'columns' : 'columns alone'},
-      element('div', {class: 'left'}, stage instanceof Stage ? stage.root : stage, player.root), element('div', {class: 'right'}, charts.root, charts.tail)),
+      element('div', {class: 'left'}, stage instanceof Stage ? stage.root : stage, player.root, stage instanceof Stage ? stage.controls : null), element('div', {class: 'right'}, charts.root, charts.tail)),
     summaryList(data.summary, data.static), parameterList(data.parameters),
     element('section', {class: 'about'}, element('h2', {}, 'About this page'), about.map((text) => element('p', {}, text)),
       element('p', {}, `Written by Supple ${data.summary.versions.supple}. It needs no network.`)));

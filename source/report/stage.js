@@ -53,14 +53,14 @@ export class Stage {
     document.body.append(this.root); // it needs a size to begin with
     this.view = new BodyView(canvas, surface, up, axes.update);
     this.enlarged = enlargement(surface);
-    this.root.append(this.controls());
+    this.controls = this.makeControls();
     this.set({field: 'von_mises_stress', enlarged: this.enlarged, wires: true, ghost: true});
     this.view.reset();
     this.showPointed(canvas);
     onThemeChange(() => this.view.takeTheme());
   }
 
-  controls() {
+  makeControls() {
     const fields = Object.keys(FIELDS).filter((field) => field !== 'material' || this.surface.materials.length > 1);
     const factors = [...new Set([1, 2, 5, 10, 20, 50, 100, this.enlarged])].sort((a, b) => a - b);
     this.wireButton = toggle('Mesh', 'Edges of the cells (w)', true, (wires) => this.set({wires}));
