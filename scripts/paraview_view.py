@@ -30,6 +30,8 @@ def colour(shown, view, top):
     table.RGBPoints = [value * top if i % 4 == 0 else value for i, value in enumerate(COLOURS)]
     bar = simple.GetScalarBar(table, view)
     bar.Title, bar.ComponentTitle = "von Mises stress [Pa]", ""
+    bar.Orientation, bar.WindowLocation, bar.ScalarBarLength = "Horizontal", "Lower Center", 0.5
+    bar.TitleFontSize, bar.LabelFontSize, bar.ScalarBarThickness = 14, 12, 12
     bar.TitleColor = bar.LabelColor = [0.1, 0.1, 0.1]
     shown.SetScalarBarVisibility(view, True)
 
@@ -64,12 +66,14 @@ def main():
     reader = simple.PVDReader(registrationName=folder.name, FileName=str(folder / "solution.pvd"))
     times = list(reader.TimestepValues)
     view = simple.GetActiveViewOrCreate("RenderView")
+    view.ViewSize = [1200, 700]
     view.UseColorPaletteForBackground = 0
     view.Background = [1, 1, 1]
     top = largest(reader)
     shown = simple.Show(reader, view)
     shown.SetRepresentationType("Surface With Edges")
     shown.EdgeColor = [0.25, 0.25, 0.3]
+    shown.Ambient, shown.Diffuse = 0.6, 0.5
     colour(shown, view, top)
     show_at_rest(reader, view)
     simple.GetAnimationScene().UpdateAnimationUsingDataTimeSteps()

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <numeric>
 #include <set>
@@ -18,7 +17,8 @@ namespace Supple
 
   namespace
   {
-    const std::string magic = "supple frames 1\n";
+    const std::string magic     = "supple frames 1\n";
+    const std::size_t head_size = magic.size() + sizeof(std::uint64_t);
 
 
     template <class Value>
@@ -101,6 +101,7 @@ namespace Supple
     , root(Utilities::MPI::this_mpi_process(body.mesh.communicator) == 0)
   {
     find_surface();
+    gather_surface();
   }
 
 
@@ -115,7 +116,7 @@ namespace Supple
       for (const unsigned int node : nodes)
         on_surface[node] = true;
       if (part.owned)
-        own_triangles.push_back({nodes, cell_index});
+        own_triangles.push_back({nodes, cell_index, material_of[cell_index]});
     };
     for (const LocalCell &cell : parts.cells)
       {
@@ -126,33 +127,46 @@ namespace Supple
     if (!body.mesh.section.plane())
       for (const LocalFace &face : parts.faces)
         add(face, face.cell_index);
-
-    std::vector<unsigned int> vertices, corners, own_materials;
-    std::vector<float> positions;
     for (unsigned int node = 0; node < body.n_owned; ++node)
       if (on_surface[node])
-        {
-          own_nodes.push_back(node);
-          vertices.push_back(body.serial_vertex[node]);
-          positions.insert(positions.end(),
-                           body.positions[node].begin(),
-                           body.positions[node].end());
-        }
+        own_nodes.push_back(node);
+  }
+
+
+  void
+  Film::gather_surface()
+  {
+    std::vector<unsigned int> vertices, corners;
+    std::vector<float> positions;
+    for (const unsigned int node : own_nodes)
+      {
+        vertices.push_back(body.serial_vertex[node]);
+        positions.insert(positions.end(), body.positions[node].begin(), body.positions[node].end());
+      }
+    std::vector<unsigned int> unsorted_materials;
     for (const Triangle &triangle : own_triangles)
       {
         for (const unsigned int node : triangle.nodes)
           corners.push_back(body.serial_vertex[node]);
-        own_materials.push_back(material_of[triangle.cell_index]);
+        unsorted_materials.push_back(triangle.material);
       }
 
     const MPI_Comm communicator = body.mesh.communicator;
     vertices                    = gathered(vertices, communicator);
     corners                     = gathered(corners, communicator);
     positions                   = gathered(positions, communicator);
-    own_materials               = gathered(own_materials, communicator);
-    if (!root)
-      return;
+    unsorted_materials          = gathered(unsorted_materials, communicator);
+    if (root)
+      sort_surface(vertices, positions, corners, unsorted_materials);
+  }
 
+
+  void
+  Film::sort_surface(std::vector<unsigned int> vertices,
+                     const std::vector<float> &positions,
+                     const std::vector<unsigned int> &corners,
+                     const std::vector<unsigned int> &unsorted_materials)
+  {
     vertex_place = places_when_sorted(vertices);
     rest.resize(positions.size());
     for (std::size_t i = 0; i < vertices.size(); ++i)
@@ -162,13 +176,17 @@ namespace Supple
     for (std::size_t i = 0; i < corners.size(); ++i)
       unsorted[i / 3][i % 3] =
         std::lower_bound(vertices.begin(), vertices.end(), corners[i]) - vertices.begin();
+    for (std::array<unsigned int, 3> &triangle : unsorted) // deal.II may begin with any of them
+      std::rotate(triangle.begin(),
+                  std::min_element(triangle.begin(), triangle.end()),
+                  triangle.end());
     triangle_place = places_when_sorted(unsorted);
     triangles.resize(unsorted.size());
     materials.resize(unsorted.size());
     for (std::size_t i = 0; i < unsorted.size(); ++i)
       {
         triangles[triangle_place[i]] = unsorted[i];
-        materials[triangle_place[i]] = own_materials[i];
+        materials[triangle_place[i]] = unsorted_materials[i];
       }
   }
 
@@ -185,27 +203,37 @@ namespace Supple
   {
     stream.open(file, std::ios::binary | (anew ? std::ios::trunc : std::ios::app));
     if (anew)
-      stream << magic << std::flush;
+      {
+        stream << magic;
+        stream.write(reinterpret_cast<const char *>(&n_missing), sizeof(n_missing));
+      }
   }
 
 
   void
   Film::resume(const unsigned int n_before)
   {
-    n_frames = 0;
+    n_frames  = 0;
+    n_missing = n_before;
     if (!root)
       return;
     std::string head(magic.size(), ' ');
-    std::ifstream(file, std::ios::binary).read(head.data(), head.size());
-    const std::size_t size = magic.size() + n_before * frame_size();
-    std::error_code problem;
-    if (head != magic || std::filesystem::file_size(file, problem) < size || problem)
+    std::uint64_t missing = n_before + 1ul;
+    std::ifstream old(file, std::ios::binary);
+    old.read(head.data(), head.size());
+    old.read(reinterpret_cast<char *>(&missing), sizeof(missing));
+    if (!old || head != magic || missing > n_before)
       return; // the next frame begins a new file
+    const std::size_t size = head_size + (n_before - missing) * frame_size();
+    std::error_code problem;
+    if (std::filesystem::file_size(file, problem) < size || problem)
+      return;
     std::filesystem::resize_file(file, size, problem);
     if (problem)
       return;
+    n_missing = missing;
+    n_frames  = n_before - missing;
     open(false);
-    n_frames = n_before;
   }
 
 
@@ -262,7 +290,7 @@ namespace Supple
     Frame frame;
     frame.displacement.resize(rest.size());
     frame.cells.resize(2 * triangles.size());
-    stream.seekg(magic.size() + number * frame_size());
+    stream.seekg(head_size + number * frame_size());
     stream.read(reinterpret_cast<char *>(&frame.time), sizeof(double));
     stream.read(reinterpret_cast<char *>(&frame.step), sizeof(double));
     for (std::vector<float> *values : {&frame.displacement, &frame.cells})

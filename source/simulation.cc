@@ -647,6 +647,8 @@ namespace Supple
     if (implicit_operator.has_mass() && std::isfinite(error_estimate))
       std::cout << ", sum of local errors " << error_estimate << " m";
     std::cout << "; " << (frames ? frames->n_written() : 0) << " frames in " << folder << std::endl;
+    if (writes_report)
+      line("report", folder + "/report.html");
     if (!energy_from_nowhere().empty())
       line("warning", energy_from_nowhere());
     if (!step_doubling)

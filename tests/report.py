@@ -152,6 +152,12 @@ status, _, error = runner.run(runner.BAR, *arguments, "--set", "Time/Steps=3500"
 late = Page(stopped)
 runner.check(status == 0 and late.data["surface"]["times"][0] > 200 and late.data["tables"]["history"]["rows"] == 3501, error)
 
+# And goes on from there, not from what it has lost.
+status, _, error = runner.run(runner.BAR, *arguments, "--set", "Time/Steps=3700")
+again = Page(stopped).data["surface"]["times"]
+runner.check(status == 0 and again[:len(late.frames) - 1] == late.data["surface"]["times"][:-1] and len(again) > len(late.frames),
+             f"{len(again)} frames from {again[0]} on")
+
 # A study.
 study = folder / "study.prm"
 study.write_text("\n".join(["subsection Study", f"  set Scene = {runner.BAR}", "  set Overrides = Time/Steps = 4", "  set Repeats = 0",

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstdint>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -75,8 +76,20 @@ namespace Supple
       std::vector<float> cells;        ///< volume ratios of all triangles, then stresses [Pa]
     };
 
+    /** This process's part of it. */
     void
     find_surface();
+
+    void
+    gather_surface();
+
+    /** @param vertices of all processes one after the other, with their @p positions; @p corners of
+     * the triangles are of these vertices too */
+    void
+    sort_surface(std::vector<unsigned int> vertices,
+                 const std::vector<float> &positions,
+                 const std::vector<unsigned int> &corners,
+                 const std::vector<unsigned int> &unsorted_materials);
 
     void
     open(bool anew);
@@ -94,7 +107,7 @@ namespace Supple
     struct Triangle
     {
       std::array<unsigned int, 3> nodes; ///< local numbers
-      unsigned int cell_index;
+      unsigned int cell_index, material;
     };
     std::vector<Triangle> own_triangles;
 
@@ -105,7 +118,8 @@ namespace Supple
     std::vector<unsigned int> vertex_place, triangle_place;
 
     std::ofstream stream;
-    unsigned int n_frames = 0; ///< in the file
+    std::uint64_t n_missing = 0; ///< frames of the run that are not in the file, for they were lost
+    unsigned int n_frames   = 0; ///< in the file
   };
 } // namespace Supple
 
