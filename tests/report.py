@@ -123,7 +123,7 @@ status, _, error = runner.run(runner.BAR, "--quiet", "--output", failed.folder, 
 runner.check(status == 2 and Page(failed).data["summary"]["status"].startswith("failed: Step"), error)
 
 # Interrupted on one process and gone on with on two: the page has all frames.
-settings = {**PUSHED, "Time/Steps": 3000, "Output/Motion": 0.05, "Output/Frames": "interval", "Output/Interval": 7,
+settings = {**PUSHED, "Time/Steps": 1000, "Output/Frames": "interval", "Output/Interval": 3.5,
             "Checkpoint/Every": 10, "Checkpoint/Resume": "auto"}
 stopped = runner.Results(folder / "stopped")
 arguments = ["--quiet", "--output", str(stopped.folder), *runner.overrides(settings)]
@@ -142,18 +142,18 @@ whole = Page(stopped)
 times = stopped.frame_times()
 runner.check(len(whole.frames) == len(times) and all(abs(a - b) < 1e-9 for a, b in zip(times, whole.data["surface"]["times"])),
              f"a resumed run shows {len(whole.frames)} of {len(times)} frames")
-runner.check(whole.data["tables"]["history"]["rows"] == 3001, "a resumed run's history")
+runner.check(whole.data["tables"]["history"]["rows"] == 1001, "a resumed run's history")
 worst = max(abs(a - b) for p, q in zip(early.frames[1][0], whole.frames[1][0]) for a, b in zip(p, q))
 runner.check(worst < 1e-4, f"a frame from before differs by {worst} m")
 
 # Where those before are lost it begins there.
 (stopped.folder / "report.frames").unlink()
-status, _, error = runner.run(runner.BAR, *arguments, "--set", "Time/Steps=3500")
+status, _, error = runner.run(runner.BAR, *arguments, "--set", "Time/Steps=1200")
 late = Page(stopped)
-runner.check(status == 0 and late.data["surface"]["times"][0] > 200 and late.data["tables"]["history"]["rows"] == 3501, error)
+runner.check(status == 0 and late.data["surface"]["times"][0] > 60 and late.data["tables"]["history"]["rows"] == 1201, error)
 
 # And goes on from there, not from what it has lost.
-status, _, error = runner.run(runner.BAR, *arguments, "--set", "Time/Steps=3700")
+status, _, error = runner.run(runner.BAR, *arguments, "--set", "Time/Steps=1400")
 again = Page(stopped).data["surface"]["times"]
 runner.check(status == 0 and again[:len(late.frames) - 1] == late.data["surface"]["times"][:-1] and len(again) > len(late.frames),
              f"{len(again)} frames from {again[0]} on")
