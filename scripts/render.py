@@ -1,13 +1,18 @@
 """Draws instants of a run, from the VTU files that solution.pvd names, beside or below each other, and another run with it.
 
     scripts/render.sh OUTPUT_FOLDER PICTURE.png [--times 0 0.14 7] [--below OTHER_OUTPUT_FOLDER] [further options]
+    scripts/render.sh OUTPUT_FOLDER SHEET.png --sheet 12      twelve frames spread over the run
+    scripts/render.sh OUTPUT_FOLDER FILM.mp4 [--seconds 8]    all frames, each shown until the next one's time
 
 The bodies are drawn in parallel projection and fill their views; the picture is as high as it must be. Two runs have the
 same scale and colours. The field that colours them may be a component (displacement_2); of a vector, else, its length.
 """
 
 import argparse
+import math
 import pathlib
+import subprocess
+import tempfile
 
 import numpy
 import vtk
@@ -172,7 +177,7 @@ def add_colour_bar(window, colours, title):
     window.AddRenderer(foot)
 
 
-def write(window, file):
+def write(window, file, colours=256):
     """As PNG of few colours, which are enough and make a small file."""
     window.Render()
     picture = vtk.vtkWindowToImageFilter()
@@ -182,8 +187,10 @@ def write(window, file):
     image = picture.GetOutput()
     width, height, _ = image.GetDimensions()
     pixels = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, 3)[::-1]
-    few = Image.fromarray(pixels).quantize(256, Image.Quantize.MAXCOVERAGE, kmeans=1, dither=Image.Dither.NONE)
-    few.save(file, optimize=True)
+    image = Image.fromarray(pixels)
+    if colours:
+        image = image.quantize(colours, Image.Quantize.MAXCOVERAGE, kmeans=1, dither=Image.Dither.NONE)
+    image.save(file, optimize=bool(colours))
 
 
 def colour(grids, arguments):
@@ -199,30 +206,77 @@ def colour(grids, arguments):
     return colour_map(low / size, high / size), title + (f" in {symbol}" if symbol else "")
 
 
+class Drawing:
+    """Bodies with their colours, and how they are looked at: the same for all of them."""
+
+    def __init__(self, runs, arguments, columns):
+        self.arguments = arguments
+        self.grids = [[read_grid(file) for _, file in instants] for instants in runs]
+        every = [grid for row in self.grids for grid in row]
+        self.colours, self.title = colour(every, arguments)
+        for grid in every:
+            enlarge(grid, arguments.enlarge)
+        self.camera, self.height = frame(every, directions(every[0], arguments), arguments.width / columns)
+
+    def write(self, file, places, shape, colours=256):
+        """(row, column, body, text) of each view, in so many rows and columns."""
+        window = vtk.vtkRenderWindow()
+        window.SetOffScreenRendering(1)
+        window.SetMultiSamples(8)
+        window.SetSize(self.arguments.width, shape[0] * self.height + FOOT)
+        whole = window.GetSize()[1]
+        for row, column, grid, text in places:
+            corners = (column / shape[1], 1 - (row + 1) * self.height / whole, (column + 1) / shape[1], 1 - row * self.height / whole)
+            add_view(window, corners, grid, text, self.camera, self.colours, self.arguments)
+        add_colour_bar(window, self.colours, self.title)
+        write(window, file, colours)
+
+
+def caption_of(name, time, instant=None):
+    return ", ".join(filter(None, [name, instant or f"t = {time:.3g} s"]))
+
+
 def draw(runs, arguments):
     """A row for each run and a column for each of its instants (time, file), or, stacked, the other way round."""
     shape = (len(runs[0]), len(runs)) if arguments.stacked else (len(runs), len(runs[0]))
-    grids = [[read_grid(file) for _, file in instants] for instants in runs]
-    every = [grid for row in grids for grid in row]
-    colours, title = colour(every, arguments)
-    for grid in every:
-        enlarge(grid, arguments.enlarge)
-    camera, height = frame(every, directions(every[0], arguments), arguments.width / shape[1])
+    drawing = Drawing(runs, arguments, shape[1])
+    places = []
+    for r, (grids, instants, name) in enumerate(zip(drawing.grids, runs, arguments.names)):
+        for i, (grid, (time, _)) in enumerate(zip(grids, instants)):
+            text = caption_of(name, time, arguments.instants[i] if arguments.instants else None)
+            places.append((*((i, r) if arguments.stacked else (r, i)), grid, text))
+    drawing.write(arguments.picture, places, shape)
 
-    window = vtk.vtkRenderWindow()
-    window.SetOffScreenRendering(1)
-    window.SetMultiSamples(8)
-    window.SetSize(arguments.width, shape[0] * height + FOOT)
-    whole = window.GetSize()[1]
-    for r, (run, instants, name) in enumerate(zip(grids, runs, arguments.names)):
-        for i, (grid, (time, _)) in enumerate(zip(run, instants)):
-            row, column = (i, r) if arguments.stacked else (r, i)
-            corners = (column / shape[1], 1 - (row + 1) * height / whole, (column + 1) / shape[1], 1 - row * height / whole)
-            instant = arguments.instants[i] if arguments.instants else f"t = {time:.3g} s"
-            text = f"{name}, {instant}" if name else instant
-            add_view(window, corners, grid, text, camera, colours, arguments)
-    add_colour_bar(window, colours, title)
-    write(window, arguments.picture)
+
+def draw_sheet(frames, arguments):
+    """Some frames of a run, spread over it, in rows."""
+    n = min(arguments.sheet, len(frames))
+    chosen = [frames[round(i * (len(frames) - 1) / max(1, n - 1))] for i in range(n)]
+    columns = math.ceil(math.sqrt(n))
+    drawing = Drawing([chosen], arguments, columns)
+    places = [(i // columns, i % columns, grid, caption_of("", time))
+              for i, (grid, (time, _)) in enumerate(zip(drawing.grids[0], chosen))]
+    drawing.write(arguments.picture, places, (math.ceil(n / columns), columns))
+
+
+def draw_film(runs, arguments):
+    """All frames of the first run with those nearest in time of the second below them. Nothing is drawn in between."""
+    times = [time for time, _ in runs[0]]
+    runs = [[min(run, key=lambda frame, t=time: abs(frame[0] - t)) for time in times] for run in runs]
+    drawing = Drawing(runs, arguments, 1)
+    drawing.height += (len(runs) * drawing.height + FOOT) % 2    # a film's height is even
+    scale = arguments.seconds / (times[-1] - times[0] or 1)
+    with tempfile.TemporaryDirectory() as folder:
+        script = ["ffconcat version 1.0"]
+        for i, time in enumerate(times):
+            places = [(r, 0, grids[i], caption_of(name, time)) for r, (grids, name) in enumerate(zip(drawing.grids, arguments.names))]
+            drawing.write(f"{folder}/{i}.png", places, (len(runs), 1), colours=None)
+            until = times[i + 1] if i + 1 < len(times) else time + 1 / scale
+            script += [f"file {i}.png", f"duration {max(0.02, (until - time) * scale):.6f}"]
+        script.append(f"file {len(times) - 1}.png")
+        pathlib.Path(folder, "script").write_text("\n".join(script))
+        subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-f", "concat", "-i", f"{folder}/script", "-vf", "fps=25,format=yuv420p",
+                        "-c:v", "libx264", "-crf", "20", "-movflags", "+faststart", arguments.picture], check=True)
 
 
 def choose(folder, times):
@@ -236,11 +290,13 @@ def choose(folder, times):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=pathlib.Path, help="output folder of a run")
-    parser.add_argument("picture", help="PNG file to write")
+    parser.add_argument("picture", help="PNG or MP4 file to write")
     parser.add_argument("--below", type=pathlib.Path, help="output folder of another run, drawn below the first")
     parser.add_argument("--names", nargs="+", default=[], help="what the runs are called")
     parser.add_argument("--times", type=float, nargs="+", help="instants [s]; the nearest frames are taken")
     parser.add_argument("--instants", nargs="+", help="what the instants are called, instead of their times")
+    parser.add_argument("--sheet", type=int, help="draw so many frames, spread over the run, in rows")
+    parser.add_argument("--seconds", type=float, default=8, help="how long a film takes")
     parser.add_argument("--stacked", action="store_true", help="instants below each other and runs side by side")
     parser.add_argument("--enlarge", type=float, default=1, help="draw so many times the displacement")
     parser.add_argument("--field", default="von_mises_stress", help="what colours the body")
@@ -254,6 +310,13 @@ def main():
 
     folders = [arguments.folder] + ([arguments.below] if arguments.below else [])
     arguments.names = (arguments.names + [""] * len(folders))[:len(folders)]
+    if arguments.picture.endswith(".mp4"):
+        arguments.width -= arguments.width % 2
+        draw_film([read_frames(folder) for folder in folders], arguments)
+        return
+    if arguments.sheet:
+        draw_sheet(read_frames(arguments.folder), arguments)
+        return
     runs = [choose(folder, arguments.times) for folder in folders]
     if arguments.instants and len(arguments.instants) != len(runs[0]):
         parser.error(f"--instants has {len(arguments.instants)} names for {len(runs[0])} instants")

@@ -256,6 +256,7 @@ namespace Supple
               if (dim == 2)
                 face.nodes[2] = face.nodes[1];
               face.boundary_id = cell->face(f)->boundary_id();
+              face.cell_index  = cell->active_cell_index();
               face.owned       = cell->is_locally_owned();
               faces.push_back(face);
             }

@@ -21,6 +21,8 @@ namespace Supple
     , folder(folder)
   {
     body.initialize(last_displacement);
+    if (parameters.report)
+      film = std::make_unique<Film>(body, folder);
   }
 
 
@@ -45,6 +47,8 @@ namespace Supple
     min_volume_ratio = saved.at("min_volume_ratio");
     max_volume_ratio = saved.at("max_volume_ratio");
     inverted         = saved.at("inverted");
+    if (film)
+      film->resume(records.size());
   }
 
 
@@ -140,6 +144,8 @@ namespace Supple
     for (unsigned int b = 0; b < state.n_blocks(); ++b)
       drawing.of_nodes.emplace_back(names[b], &state.block(b));
     write_pieces(drawing, name);
+    if (film)
+      film->write(drawing);
     for (unsigned int b = 0; b < state.n_blocks(); ++b)
       state.block(b).zero_out_ghost_values();
   }

@@ -590,6 +590,13 @@ namespace Supple
         "none",
         Range::one_of("true|false"),
         "Whether history.csv, probes.csv and profiles are written.");
+    add(prm,
+        "Report",
+        report,
+        "none",
+        Range::one_of("true|false"),
+        "Whether report.html, a page with the moving body and its history, is written at the end, "
+        "from the frames and tables there are.");
     prm.leave_subsection();
   }
 

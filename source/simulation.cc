@@ -1,6 +1,7 @@
 #include <supple/error.h>
 #include <supple/expression.h>
 #include <supple/interrupt.h>
+#include <supple/report.h>
 #include <supple/simulation.h>
 #include <supple/summary.h>
 
@@ -29,6 +30,7 @@ namespace Supple
     , talks(!quiet && Utilities::MPI::this_mpi_process(communicator) == 0)
     , writes_history(!folder.empty() && parameters.output.history)
     , writes_frames(!folder.empty() && parameters.output.frames != OutputParameters::Frames::none)
+    , writes_report(parameters.output.report && (writes_history || writes_frames))
     , start(std::chrono::steady_clock::now())
     , mesh(parameters, communicator)
     , body(mesh, parameters)
@@ -349,6 +351,8 @@ namespace Supple
                              "probes.csv",
                              "error.csv",
                              "summary.json",
+                             "report.html",
+                             "report.frames",
                              "checkpoint.cbor",
                              "checkpoint.previous.cbor"})
       fs::remove(fs::path(folder) / name);
@@ -587,9 +591,23 @@ namespace Supple
       run_seconds -= step_doubling->seconds;
     summary_text = summarize(status);
     if (!folder.empty() && Utilities::MPI::this_mpi_process(communicator) == 0)
-      write_whole_file(folder + "/summary.json", summary_text);
+      {
+        write_whole_file(folder + "/summary.json", summary_text);
+        if (writes_report)
+          write_page();
+      }
     if (talks && status == "done")
       print_result();
+  }
+
+
+  void
+  Simulation::write_page() const
+  {
+    const Film *const film = frames ? frames->surface_film() : nullptr;
+    write_report(folder, parameters, summary_text, film);
+    if (film && !parameters.checkpoint.wanted())
+      film->remove(); // no run will go on from here
   }
 
 
@@ -633,6 +651,8 @@ namespace Supple
     for (const std::string &text : warnings())
       if (std::find(warnings_told.begin(), warnings_told.end(), text) == warnings_told.end())
         line("warning", text);
+    if (writes_report)
+      line("report", folder + "/report.html");
     if (!step_doubling)
       return;
     if (step_doubling->failure.empty() && largest_motion > 0.)

@@ -3,6 +3,7 @@
 #include <supple/error.h>
 #include <supple/interrupt.h>
 #include <supple/progress.h>
+#include <supple/report.h>
 #include <supple/tables.h>
 
 #include <deal.II/base/mpi.h>
@@ -121,7 +122,7 @@ namespace Supple
         {
           namespace fs = std::filesystem;
           fs::create_directories(folder);
-          for (const char *name : {"study.csv", "study.md"})
+          for (const char *name : {"study.csv", "study.md", "report.html"})
             fs::remove(fs::path(folder) / name);
           for (const char *plot : {"work_precision", "convergence"})
             for (const char *ending : {".gp", ".svg", ".png"})
@@ -216,7 +217,8 @@ namespace Supple
     row.run = run;
     try
       {
-        const Parameters scene   = plan.parameters(run);
+        Parameters scene         = plan.parameters(run);
+        scene.output.report      = false; // the study has one for all
         const StudyRecord record = runner.record(
           scene, parameters.histories ? folder + "/runs/" + run.folder_name() : std::string());
         measure(row, record);
@@ -272,6 +274,7 @@ namespace Supple
       return;
     write_whole_file(folder + "/study.csv", table.csv());
     write_whole_file(folder + "/study.md", table.markdown());
+    write_report(folder, table);
     if (!with_plots || plan.kind == StudyPlan::Kind::cases)
       return;
     const std::string problem = plot_study(table, folder);

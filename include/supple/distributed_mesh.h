@@ -31,7 +31,8 @@ namespace Supple
   {
     std::array<unsigned int, 3> nodes; ///< local numbers; the second of an edge stands twice
     unsigned int boundary_id;
-    bool owned; ///< its cell is
+    unsigned int cell_index; ///< of its cell in values by cell
+    bool owned;              ///< its cell is
   };
 
 

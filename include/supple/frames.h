@@ -2,7 +2,9 @@
 #define supple_frames_h
 
 #include <supple/diagnostics.h>
+#include <supple/film.h>
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,8 +15,8 @@ namespace Supple
   class Frames
   {
   public:
-    /** @param folder of the results; solution.pvd goes there and VTU files into solution/ below it
-     */
+    /** @param folder of the results; solution.pvd goes there and VTU files into solution/ below
+     * it, and if a report is wanted, the film that it shows */
     Frames(const Body &body, const OutputParameters &parameters, const std::string &folder);
 
     /** Whether something has happened that should be seen. */
@@ -37,6 +39,13 @@ namespace Supple
     displacement_of_last()
     {
       return last_displacement;
+    }
+
+    /** Null if no report is wanted. */
+    const Film *
+    surface_film() const
+    {
+      return film.get();
     }
 
     unsigned int
@@ -64,6 +73,7 @@ namespace Supple
     const Body &body;
     const OutputParameters &parameters;
     const std::string folder;
+    std::unique_ptr<Film> film;
     std::vector<std::pair<double, std::string>> records; ///< time and file of each frame
     Measurement last;                                    ///< when the last frame was written
     Vector last_displacement;

@@ -364,6 +364,7 @@ namespace Supple
     unsigned int every         = 1;
     double interval            = 0.1;
     bool history               = true;
+    bool report                = true;
 
     void
     declare(dealii::ParameterHandler &prm);

@@ -168,6 +168,10 @@ namespace Supple
     std::string
     summarize(const std::string &status);
 
+    /** On the first process. */
+    void
+    write_page() const;
+
     /** What the run has to say on the screen at its end. */
     void
     print_result() const;
@@ -190,6 +194,7 @@ namespace Supple
     const bool talks; ///< this process writes on the screen
     const bool writes_history;
     const bool writes_frames;
+    const bool writes_report;
     bool observed = false; ///< somebody asks for energies and reactions
     Observer observer;
     Effort effort;

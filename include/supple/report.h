@@ -1,0 +1,38 @@
+#ifndef supple_report_h
+#define supple_report_h
+
+#include <supple/film.h>
+#include <supple/parameters.h>
+
+#include <string>
+
+namespace Supple
+{
+  struct StudyTable;
+
+  /** The page without its data, as scripts/build-report.sh makes it of source/report. */
+  extern const char report_page[];
+
+
+  /**
+   * Writes report.html, the page of a run that needs no network: from the tables in the folder, the
+   * film, the summary and the parameters. Where there is more than a page can show, tables are
+   * thinned to a few thousand rows, those with extremes among them, and frames to some megabytes;
+   * the page says so.
+   * @param summary as in summary.json
+   * @param film    may be null
+   * @throws WriteError
+   */
+  void
+  write_report(const std::string &folder,
+               const Parameters &parameters,
+               const std::string &summary,
+               const Film *film);
+
+
+  /** The same of a study: its table, and a plot of error against run time. @throws WriteError */
+  void
+  write_report(const std::string &folder, const StudyTable &table);
+} // namespace Supple
+
+#endif

@@ -1,0 +1,94 @@
+// The surface of the body in its frames, as source/film.cc packs it.
+
+/** Bytes of base64. */
+function decode(text) {
+  const binary = atob(text);
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < binary.length; ++i) bytes[i] = binary.charCodeAt(i);
+  return bytes.buffer;
+}
+
+export class Surface {
+  constructor(description, text) {
+    Object.assign(this, description);
+    const buffer = decode(text);
+    const vertices = description.vertices, triangles = description.triangles;
+    let at = 0;
+    const take = (Type, n) => {
+      const array = new Type(buffer, at, n);
+      at += n * Type.BYTES_PER_ELEMENT;
+      return array;
+    };
+    this.rest = take(Float32Array, 3 * vertices);
+    this.corners = take(Uint32Array, 3 * triangles);
+    this.materialIds = take(Uint16Array, 2 * Math.ceil(triangles / 2));
+    this.frames = this.times.map(() => ({
+      displacement: take(Int16Array, 3 * vertices),
+      volume_ratio: take(Uint16Array, triangles),
+      von_mises_stress: take(Uint16Array, triangles),
+    }));
+    this.range = {volume_ratio: this.volume_ratio, von_mises_stress: this.von_mises_stress};
+    this.flat = this.rest.every((value, i) => i % 3 !== 2 || value === 0);
+    this.measure();
+  }
+
+  /** Extent at rest, farthest motion, and the box that all frames lie in, for any enlargement. */
+  measure() {
+    this.low = [Infinity, Infinity, Infinity];
+    this.high = [-Infinity, -Infinity, -Infinity];
+    this.rest.forEach((x, i) => {
+      this.low[i % 3] = Math.min(this.low[i % 3], x);
+      this.high[i % 3] = Math.max(this.high[i % 3], x);
+    });
+    this.extent = this.high.map((high, d) => high - this.low[d]);
+    this.diameter = Math.hypot(...this.extent);
+
+    const scale = this.largest_displacement / 32767;
+    this.farthest = 0;
+    this.farthestFrame = 0;
+    this.frames.forEach(({displacement: u}, number) => {
+      let square = 0;
+      for (let i = 0; i < u.length; i += 3) square = Math.max(square, u[i] ** 2 + u[i + 1] ** 2 + u[i + 2] ** 2);
+      const length = Math.sqrt(square) * scale;
+      if (length > this.farthest) [this.farthest, this.farthestFrame] = [length, number];
+    });
+    this.range.displacement = [0, this.farthest];
+  }
+
+  /** The box of all frames with so many times the displacement. */
+  box(enlarged) {
+    const low = [...this.low], high = [...this.high];
+    const scale = enlarged * this.largest_displacement / 32767;
+    for (const {displacement: u} of this.frames)
+      for (let i = 0; i < u.length; ++i) {
+        const x = this.rest[i] + scale * u[i];
+        if (x < low[i % 3]) low[i % 3] = x;
+        if (x > high[i % 3]) high[i % 3] = x;
+      }
+    return {low, high};
+  }
+
+  /** The frame at or before a time, and how far it is from there to the next, 0 to 1. */
+  at(time) {
+    let number = 0;
+    while (number + 1 < this.times.length && this.times[number + 1] <= time) ++number;
+    const next = Math.min(number + 1, this.times.length - 1);
+    const length = this.times[next] - this.times[number];
+    return {number, next, part: length > 0 ? Math.max(0, (time - this.times[number]) / length) : 0};
+  }
+
+  /** Displacements at a time, in metres, into an array. */
+  displacements({number, next, part}, into) {
+    const a = this.frames[number].displacement, b = this.frames[next].displacement;
+    const scale = this.largest_displacement / 32767;
+    for (let i = 0; i < into.length; ++i) into[i] = scale * (a[i] + part * (b[i] - a[i]));
+  }
+
+  /** A field of the triangles at a time, into an array. */
+  values(field, {number, next, part}, into) {
+    const a = this.frames[number][field], b = this.frames[next][field];
+    const [low, high] = this.range[field];
+    const scale = (high - low) / 65535;
+    for (let i = 0; i < into.length; ++i) into[i] = low + scale * (a[i] + part * (b[i] - a[i]));
+  }
+}
