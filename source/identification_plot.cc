@@ -52,7 +52,7 @@ namespace Supple
     plain(const double number)
     {
       std::ostringstream text;
-      text.precision(3);
+      text.precision(4);
       text << number;
       return text.str();
     }
@@ -69,6 +69,30 @@ namespace Supple
       for (auto &[number, place] : places)
         place = n++;
       return places;
+    }
+
+
+    /** 1, 2, 5, 10, ... as far as errors reach. */
+    template <class Number>
+    std::string
+    tics_between(const IdentificationTable &table, const Number &error)
+    {
+      double lowest = error(table.pairs.front()), highest = lowest;
+      for (const PairErrors &pair : table.pairs)
+        {
+          lowest  = std::min(lowest, error(pair));
+          highest = std::max(highest, error(pair));
+        }
+      lowest /= table.unit_length;
+      highest /= table.unit_length;
+      std::string text;
+      if (lowest > 0.)
+        for (double power = std::pow(10., std::floor(std::log10(lowest))); power <= highest;
+             power *= 10.)
+          for (const double digit : {1., 2., 5.})
+            if (digit * power >= lowest && digit * power <= highest)
+              text += (text.empty() ? "" : ", ") + plain(digit * power);
+      return text;
     }
 
 
@@ -103,7 +127,7 @@ namespace Supple
            << "set xlabel \"Young modulus of the upper layer over that of the lower one\"\n"
            << "set ylabel " << quoted("thickness of the upper layer [" + table.unit + "]")
            << "\nset cblabel " << quoted("error [" + table.unit + "]")
-           << "\nset logscale cb\nunset key\n"
+           << "\nset logscale cb\nset cbtics (" << tics_between(table, error) << ")\nunset key\n"
            << "set palette defined (0 \"#1b7837\", 1 \"#7fbf7b\", 2 \"#f7f7f7\", 3 \"#fdb863\", "
               "4 \"#b35806\")\n"
            << "set xrange [-0.5:" << columns.size() - 0.5
