@@ -102,7 +102,7 @@ class Chromium:
             raise RuntimeError(f"{expression}: {result['exceptionDetails']}")
         return result["result"].get("value")
 
-    def wait_for(self, condition, seconds=120):
+    def wait_for(self, condition, seconds=240):
         end = time.monotonic() + seconds
         while not self.evaluate(condition):
             if time.monotonic() > end:

@@ -45,7 +45,7 @@ runner.check(status == 0 and "192 tetrahedra" in output and not (folder / "check
 # Files and columns.
 results = runner.simulate(runner.BAR, {})
 names = sorted(path.name for path in results.folder.iterdir())
-runner.check(names == ["history.csv", "parameters.prm", "probes.csv", "solution", "solution.pvd", "summary.json"],
+runner.check(names == ["history.csv", "parameters.prm", "probes.csv", "report.html", "solution", "solution.pvd", "summary.json"],
              f"files {names}")
 header = (results.folder / "history.csv").read_text().splitlines()[0]
 runner.check(header == "step,time,dt,kinetic,elastic,potential,dissipated,total,work,px,py,pz,lx,ly,lz,"
@@ -65,7 +65,7 @@ runner.check(runner.largest_difference(results.probes(), again.probes(), ["n28.u
 status, _, _ = runner.run(runner.BAR, "--quiet", "--output", results.folder, "--set", "Output/Frames=none",
                           "--set", "Probes/Points=", "--set", "Probes/Boundaries=")
 left = sorted(path.name for path in results.folder.rglob("*"))
-runner.check(status == 0 and left == ["history.csv", "parameters.prm", "solution", "summary.json"], f"left: {left}")
+runner.check(status == 0 and left == ["history.csv", "parameters.prm", "report.html", "solution", "summary.json"], f"left: {left}")
 
 # --quiet says nothing; without a terminal there is no progress line.
 status, output, error = runner.run(runner.BAR, "--quiet", "--output", folder / "quiet")

@@ -249,22 +249,23 @@ with chromium.Chromium() as browser:
     runner.check(settled(browser)["hash"] != before, "arrows do not turn the body")
     runner.check(browser.complaints() == [], f"bar: {browser.complaints()}")
 
-    opens(browser, page.file, "phone", width=390, height=844, phone=True, scale=2)
+    opens(browser, page.file, "phone", width=390, height=844, phone=True)
     runner.check(settled(browser)["body"] > 0.05 and browser.evaluate(SMALL % 32) == 0, "phone: the body, or small controls")
 
     opens(browser, flat.file, "dark", **DESKTOP, dark=True)
     background = [int(c) for c in re.findall(r"\d+", browser.evaluate("getComputedStyle(document.body).backgroundColor"))]
     runner.check(max(background[:3]) < 60 and settled(browser)["colours"] > 30, f"dark: {background}")
 
+    SMALLER = dict(width=1000, height=600)
     for file, word in [(failed.folder / "report.html", "1/0"), (interrupted, "Interrupted")]:
-        opens(browser, file, word, **DESKTOP)
+        opens(browser, file, word, **SMALLER)
         told = browser.evaluate("document.querySelector('.notice')?.textContent ?? ''")
         runner.check(word in told or "failed" in told, f"the reason is not on top: {told}")
-    opens(browser, curves.folder / "report.html", "without frames", **DESKTOP)
-    opens(browser, still.folder / "report.html", "without history", **DESKTOP)
-    opens(browser, late.file, "from a later instant on", **DESKTOP)
+    opens(browser, curves.folder / "report.html", "without frames", **SMALLER)
+    opens(browser, still.folder / "report.html", "without history", **SMALLER)
+    opens(browser, late.file, "from a later instant on", **SMALLER)
     runner.check("gone on with" in browser.evaluate("document.querySelector('.about').textContent"), "the page does not say where it begins")
 
-    opens(browser, folder / "study" / "report.html", "study", **DESKTOP)
+    opens(browser, folder / "study" / "report.html", "study", **SMALLER)
     runner.check(browser.evaluate("document.querySelectorAll('.chart canvas').length") == 2, "the plots of a study")
     runner.check(browser.evaluate("document.querySelectorAll('.study tbody tr').length") == 5, "the table of a study")

@@ -33,7 +33,7 @@ export class BodyView {
     this.enlarged = 1;
     this.ofInstant = false;
     this.where = surface.at(0);
-    this.renderer = new WebGLRenderer({canvas, antialias: true, preserveDrawingBuffer: true});
+    this.renderer = new WebGLRenderer({canvas, antialias: devicePixelRatio < 2, preserveDrawingBuffer: true});
     this.renderer.debug.checkShaderErrors = false; // it would wait for each shader
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(24, 1, 0.01, 100);
