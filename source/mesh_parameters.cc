@@ -106,6 +106,44 @@ namespace Supple
 
 
   void
+  MeshParameters::declare_layers(ParameterHandler &prm)
+  {
+    const Range positive = Range::between(0, infinity);
+    add(
+      prm,
+      "Layers",
+      material_layers,
+      "m",
+      RangeList("thicknesses set apart by commas, each " + positive.description() + ", or nothing",
+                positive,
+                0,
+                dealii::Patterns::List::max_int_value),
+      "Layers of a box or a rectangle from the top, the largest y, downward: their cells have the "
+      "material ids 0, 1, ... Together they are as thick as the body, and each ends where a row "
+      "of cubes or squares does. Empty: all cells have the material id 0.");
+    add(prm,
+        "Layer rows",
+        layer_rows,
+        "none",
+        RangeList("whole numbers set apart by commas, each " +
+                    Range::whole_number(1).description() + ", or nothing",
+                  Range::whole_number(1),
+                  0,
+                  dealii::Patterns::List::max_int_value),
+        "How many of the rows of cubes or squares each of the Layers has, from the top downward; "
+        "in a layer they are equally high, so that it may end anywhere. Empty: all rows are.");
+    prm.add_parameter(
+      "Placement",
+      placement,
+      "Where the vertex at x, y, z of a box, a cylinder, a rectangle or a file is put, such as "
+      "x*(0.2 + 0.8*(x/0.006)^2); y; z for small cells in the middle. Layers, and boundary ids of "
+      "shapes, are found before; all else speaks of the new places. Unit: m. Range: " +
+        Range::expressions(3).description(dealii::Patterns::PatternBase::Text) + ".",
+      Range::expressions(3));
+  }
+
+
+  void
   MeshParameters::declare(ParameterHandler &prm)
   {
     const Range positive = Range::between(0, infinity);
@@ -143,37 +181,7 @@ namespace Supple
       "x), 1 (largest x), 2, 3 (y), 4, 5 (z).");
     declare_cylinder(prm);
     declare_rectangle(prm);
-    add(
-      prm,
-      "Layers",
-      material_layers,
-      "m",
-      RangeList("thicknesses set apart by commas, each " + positive.description() + ", or nothing",
-                positive,
-                0,
-                dealii::Patterns::List::max_int_value),
-      "Layers of a box or a rectangle from the top, the largest y, downward: their cells have the "
-      "material ids 0, 1, ... Together they are as thick as the body, and each ends where a row "
-      "of cubes or squares does. Empty: all cells have the material id 0.");
-    add(prm,
-        "Layer rows",
-        layer_rows,
-        "none",
-        RangeList("whole numbers set apart by commas, each " +
-                    Range::whole_number(1).description() + ", or nothing",
-                  Range::whole_number(1),
-                  0,
-                  dealii::Patterns::List::max_int_value),
-        "How many of the rows of cubes or squares each of the Layers has, from the top downward; "
-        "in a layer they are equally high, so that it may end anywhere. Empty: all rows are.");
-    prm.add_parameter(
-      "Placement",
-      placement,
-      "Where the vertex at x, y, z of a box, a cylinder, a rectangle or a file is put, such as "
-      "x*(0.2 + 0.8*(x/0.006)^2); y; z for small cells in the middle. Layers, and boundary ids of "
-      "shapes, are found before; all else speaks of the new places. Unit: m. Range: " +
-        Range::expressions(3).description(dealii::Patterns::PatternBase::Text) + ".",
-      Range::expressions(3));
+    declare_layers(prm);
     declare_file(prm);
     prm.leave_subsection();
   }

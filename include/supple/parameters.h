@@ -88,6 +88,10 @@ namespace Supple
     void
     declare_rectangle(dealii::ParameterHandler &prm);
 
+    /** And where vertices are put. */
+    void
+    declare_layers(dealii::ParameterHandler &prm);
+
     void
     declare_file(dealii::ParameterHandler &prm);
 
