@@ -196,9 +196,8 @@ namespace Supple
 
 
   std::vector<double>
-  MeshParameters::ends_of_rows() const
+  MeshParameters::ends_of_rows(const double height, const unsigned int n_rows) const
   {
-    const auto [height, n_rows] = height_and_rows();
     std::vector<double> ends(n_rows + 1);
     if (layer_rows.empty())
       for (unsigned int row = 0; row <= n_rows; ++row)
@@ -221,9 +220,8 @@ namespace Supple
 
 
   std::vector<unsigned int>
-  MeshParameters::material_of_rows() const
+  MeshParameters::material_of_rows(const std::vector<double> &ends) const
   {
-    const std::vector<double> ends = ends_of_rows();
     std::vector<unsigned int> material(ends.size() - 1);
     double bottom = ends.back();
     for (unsigned int layer = 0; layer < material_layers.size(); ++layer)
