@@ -40,8 +40,8 @@ namespace Supple
     SerialMesh mesh;
     const std::array<unsigned int, 3> &n     = parameters.cubes;
     const std::array<unsigned int, 3> stride = {{1, n[0] + 1, (n[0] + 1) * (n[1] + 1)}};
-    const std::vector<unsigned int> material = parameters.material_of_rows();
-    const std::vector<double> ends           = parameters.ends_of_rows();
+    const std::vector<double> ends           = parameters.ends_of_rows(parameters.size[1], n[1]);
+    const std::vector<unsigned int> material = parameters.material_of_rows(ends);
 
     for (unsigned int k = 0; k <= n[2]; ++k)
       for (unsigned int j = 0; j <= n[1]; ++j)
@@ -96,10 +96,10 @@ namespace Supple
     using Split = MeshParameters::Split;
 
     SerialMesh mesh;
-    mesh.dimension                           = 2;
-    const std::array<unsigned int, 2> &n     = parameters.squares;
-    const std::vector<unsigned int> material = parameters.material_of_rows();
-    const std::vector<double> ends           = parameters.ends_of_rows();
+    mesh.dimension                       = 2;
+    const std::array<unsigned int, 2> &n = parameters.squares;
+    const std::vector<double> ends = parameters.ends_of_rows(parameters.rectangle_size[1], n[1]);
+    const std::vector<unsigned int> material = parameters.material_of_rows(ends);
 
     for (unsigned int j = 0; j <= n[1]; ++j)
       for (unsigned int i = 0; i <= n[0]; ++i)

@@ -115,6 +115,36 @@ namespace Supple
 
 
   void
+  MeshParameters::declare_layers(ParameterHandler &prm)
+  {
+    const Range positive = Range::between(0, infinity);
+    add(
+      prm,
+      "Layers",
+      material_layers,
+      "m",
+      RangeList("thicknesses set apart by commas, each " + positive.description() + ", or nothing",
+                positive,
+                0,
+                dealii::Patterns::List::max_int_value),
+      "Layers of a box or a rectangle from the top, the largest y, downward: their cells have the "
+      "material ids 0, 1, ... Together they are as thick as the body, and each ends where a row "
+      "of cubes or squares does. Empty: all cells have the material id 0.");
+    add(prm,
+        "Layer rows",
+        layer_rows,
+        "none",
+        RangeList("whole numbers set apart by commas, each " +
+                    Range::whole_number(1).description() + ", or nothing",
+                  Range::whole_number(1),
+                  0,
+                  dealii::Patterns::List::max_int_value),
+        "How many of the rows of cubes or squares each of the Layers has, from the top downward; "
+        "in a layer they are equally high, so that it may end anywhere. Empty: all rows are.");
+  }
+
+
+  void
   MeshParameters::declare(ParameterHandler &prm)
   {
     const Range positive = Range::between(0, infinity);
@@ -152,29 +182,7 @@ namespace Supple
       "x), 1 (largest x), 2, 3 (y), 4, 5 (z).");
     declare_cylinder(prm);
     declare_rectangle(prm);
-    add(
-      prm,
-      "Layers",
-      material_layers,
-      "m",
-      RangeList("thicknesses set apart by commas, each " + positive.description() + ", or nothing",
-                positive,
-                0,
-                dealii::Patterns::List::max_int_value),
-      "Layers of a box or a rectangle from the top, the largest y, downward: their cells have the "
-      "material ids 0, 1, ... Together they are as thick as the body, and each ends where a row "
-      "of cubes or squares does. Empty: all cells have the material id 0.");
-    add(prm,
-        "Layer rows",
-        layer_rows,
-        "none",
-        RangeList("whole numbers set apart by commas, each " +
-                    Range::whole_number(1).description() + ", or nothing",
-                  Range::whole_number(1),
-                  0,
-                  dealii::Patterns::List::max_int_value),
-        "How many of the rows of cubes or squares each of the Layers has, from the top downward; "
-        "in a layer they are equally high, so that it may end anywhere. Empty: all rows are.");
+    declare_layers(prm);
     declare_file(prm);
     prm.leave_subsection();
   }
@@ -189,9 +197,8 @@ namespace Supple
 
 
   std::vector<double>
-  MeshParameters::ends_of_rows() const
+  MeshParameters::ends_of_rows(const double height, const unsigned int n_rows) const
   {
-    const auto [height, n_rows] = height_and_rows();
     std::vector<double> ends(n_rows + 1);
     if (layer_rows.empty())
       for (unsigned int row = 0; row <= n_rows; ++row)
@@ -214,9 +221,8 @@ namespace Supple
 
 
   std::vector<unsigned int>
-  MeshParameters::material_of_rows() const
+  MeshParameters::material_of_rows(const std::vector<double> &ends) const
   {
-    const std::vector<double> ends = ends_of_rows();
     std::vector<unsigned int> material(ends.size() - 1);
     double bottom = ends.back();
     for (unsigned int layer = 0; layer < material_layers.size(); ++layer)

@@ -152,3 +152,12 @@ failed = runner.Results(folder)
 steps = len(failed.probes())
 runner.check(status == 2 and 1 < steps < 21, f"{status}: {error}")
 runner.check(len(failed.table("profile_skin.csv")) == steps * 25, "the profile is not whole")
+
+# A flat punch without friction on a half-space: its exact force, approached from above with an order of 1.5 and more.
+PUNCH = runner.ROOT / "parameters" / "validation" / "flat-punch.prm"
+exact = 2 * 0.001 * 0.2e6 * 0.0001 / (1 - 0.3**2)
+errors = []
+for cubes in 8, 16:
+    force = -4 * runner.simulate(PUNCH, {**quiet, "Mesh/Box cubes": f"{cubes}, {cubes}, {cubes}"}).probes()[-1]["punch.fy"]
+    errors.append(force / exact - 1)
+runner.check(0 < errors[1] < 0.12 and math.log2(errors[0] / errors[1]) > 1.5, f"flat punch: errors {errors}")

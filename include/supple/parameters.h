@@ -68,14 +68,14 @@ namespace Supple
     void
     check(const Parameters &parameters) const;
 
-    /** The material id of each row of cubes or squares along y, from the bottom. */
-    std::vector<unsigned int>
-    material_of_rows() const;
-
-    /** Where the rows end along y, from the bottom: one more than there are, from 0 to the height
-     * [m]. */
+    /** Where rows of cubes or squares end along y, from the bottom: one more than there are, from 0
+     * to the height [m]. */
     std::vector<double>
-    ends_of_rows() const;
+    ends_of_rows(double height, unsigned int n_rows) const;
+
+    /** The material id of each row, from the bottom. */
+    std::vector<unsigned int>
+    material_of_rows(const std::vector<double> &ends) const;
 
     /** Of a box or a rectangle along y, and how many cubes or squares it has there. */
     std::pair<double, unsigned int>
@@ -87,6 +87,10 @@ namespace Supple
 
     void
     declare_rectangle(dealii::ParameterHandler &prm);
+
+    /** And where vertices are put. */
+    void
+    declare_layers(dealii::ParameterHandler &prm);
 
     void
     declare_file(dealii::ParameterHandler &prm);
