@@ -44,10 +44,12 @@ lying=(--stacked --up 1 0 0 --camera 0 1 0.35)                 # the axis to the
 held_free=(--names held free --times 0 0.05 0.5)
 
 show bar bar/large --times 0.07 0.21 0.49
+show bar-small "bar/small-linear bar/small" --names linear corotational --times 0.07 0.28 0.49
+show bar-linear "bar/large-linear bar/large" "${growing[@]}" --times 0.07 0.21 0.49
 show bar-fast "bar/fast-linear bar/fast" "${growing[@]}" --times 0.06 0.12 0.42
 settings=Time/Steps=2 show bar-static bar/static "${loading[@]}" --enlarge 20
 show mushroom "mushroom/mushroom-linear mushroom/mushroom" "${growing[@]}" --outline silhouette \
-  --times 0 2 4.4 --camera -0.15 -1 0.05
+  --times 0 2 5.74 --camera -0.15 -1 0.05
 show armadillo "armadillo/armadillo-linear armadillo/armadillo" "${growing[@]}" --outline silhouette \
   --times 0 0.5 0.9 --camera -1.2 -0.8 0.25
 
@@ -57,8 +59,8 @@ show vein-test-3 "vein/test-3 vein/test-3-free" "${lying[@]}" "${held_free[@]}" 
 show vein-test-4 "vein/test-4 vein/test-4-free" "${lying[@]}" "${held_free[@]}" --range 0 76e3 --up 0 -1 0 --camera 1 0 0.35
 show vein-test-5 vein/test-5 "${lying[@]}" --times 0.02 0.05 0.5 --enlarge 20 --width 1000 \
   --field displacement_2 --title "displacement along z" --range -0.000024 0.000024
-show vein-pulse vein/pulse "${lying[@]}" --times 0.355 0.9 1.16 --enlarge 4 --field displacement --width 1000 \
-  --instants "systole, t = 0.355 s" "diastole, t = 0.9 s" "systole, t = 1.16 s"
+show vein-pulse vein/pulse "${lying[@]}" --times 0 0.355 0.9 --enlarge 4 --field displacement --width 1000 \
+  --instants "at rest" "systole, t = 0.355 s" "diastole, t = 0.9 s"
 settings=Time/Steps=2 show thick-cylinder validation/thick-cylinder "${loading[@]}" --enlarge 150
 
 volumes volumes-mushroom mushroom/mushroom-linear mushroom/mushroom

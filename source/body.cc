@@ -292,6 +292,21 @@ namespace Supple
   }
 
 
+  std::string
+  Body::vertex_in_words(const unsigned int vertex) const
+  {
+    std::vector<double> here(3), place(3);
+    for (unsigned int node = 0; node < n_owned; ++node)
+      if (serial_vertex[node] == vertex)
+        std::copy(positions[node].begin(), positions[node].end(), here.begin());
+    Utilities::MPI::sum(here, mesh.communicator, place);
+    std::ostringstream text;
+    text << "vertex " << vertex << " at (" << place[0] << ", " << place[1] << ", " << place[2]
+         << ")";
+    return text.str();
+  }
+
+
   std::pair<unsigned int, double>
   Body::nearest_vertex(const Point<3> &point) const
   {

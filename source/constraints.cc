@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <sstream>
 
 namespace Supple
 {
@@ -50,7 +51,7 @@ namespace Supple
   Constraints::complete()
   {
     // A piece that nothing but its own nature holds is as free as a body can be.
-    std::vector<unsigned int> held_in(body.mesh.report.n_pieces), total(held_in.size());
+    std::vector<unsigned int> held_in(body.mesh.report.pieces.size()), total(held_in.size());
     unsigned int n_counted = 0;
     for (unsigned int dof = 0; dof < 3 * body.n_local; ++dof)
       {
@@ -65,9 +66,36 @@ namespace Supple
       }
     n_held = Utilities::MPI::sum(n_counted, body.mesh.communicator);
     Utilities::MPI::sum(held_in, body.mesh.communicator, total);
-    n_pieces_free        = std::count(total.begin(), total.end(), 0u);
+    for (unsigned int piece = 0; piece < total.size(); ++piece)
+      if (total[piece] == 0)
+        free_pieces.push_back(piece);
     n_rigid_motions      = body.mesh.section.axisymmetric() ? 1 : body.mesh.section.plane() ? 3 : 6;
     n_free_rigid_motions = count_free_rigid_motions();
+  }
+
+
+  std::string
+  Constraints::free_pieces_in_words() const
+  {
+    constexpr std::size_t n_shown = 3;
+
+    const auto &pieces = body.mesh.report.pieces;
+    if (free_pieces.empty() || free_pieces.size() == pieces.size())
+      return "";
+    std::ostringstream text;
+    text << free_pieces.size() << " of the " << pieces.size() << " pieces "
+         << (free_pieces.size() == 1 ? "is" : "are") << " not held anywhere: ";
+    for (std::size_t i = 0; i < std::min(n_shown, free_pieces.size()); ++i)
+      {
+        const MeshReport::Piece &piece = pieces[free_pieces[i]];
+        text << (i == 0 ? "" : "; ") << "that of " << piece.n_cells
+             << (piece.n_cells == 1 ? " cell" : " cells") << " in "
+             << extent_in_words(piece.box, body.mesh.section.plane() ? 2 : 3) << " m";
+      }
+    if (free_pieces.size() > n_shown)
+      text << "; and " << free_pieces.size() - n_shown << " more";
+    text << ".";
+    return text.str();
   }
 
 

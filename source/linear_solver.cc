@@ -12,20 +12,23 @@ namespace Supple
 
   namespace
   {
-    // Where one solver overtakes the next, in degrees of freedom, measured on the bar
+    // Up to how many degrees of freedom a solver is the best one, measured on the bar
     // (benchmarks/bar). An operator that never changes is factored once, so that the cost of a
     // solution alone counts.
     struct Limits
     {
       unsigned int ldlt, cholmod;
     };
-    constexpr Limits changing_operator = {4000, 4000};
+    constexpr Limits changing_operator = {600, 600};
     constexpr Limits constant_operator = {1500, 150000};
 
-    // In the plane factors stay thin: CHOLMOD takes 1.3 s at 161202 unknowns, multigrid 4.1 s
+    // In the plane factors stay thin: CHOLMOD takes 1.3 s at 161202 unknowns, ML 4.1 s
     // (parameters/skin/needle-plane.prm, finer).
     constexpr Limits changing_operator_in_plane = {5000, 300000};
     constexpr Limits constant_operator_in_plane = {1500, 300000};
+
+    // Beyond, CHOLMOD would take gigabytes as a stand-in.
+    constexpr unsigned int largest_stand_in_factor = 300000;
 
     Limits
     limits_of(const bool plane, const bool constant)
@@ -35,6 +38,20 @@ namespace Supple
       return constant ? constant_operator : changing_operator;
     }
 
+    /** Our multigrid knows the six rigid motions of a body in space alone. */
+    Method
+    multigrid(const ImplicitOperator &A)
+    {
+      return A.body.mesh.section.plane() ? Method::cg_ml : Method::cg_amg;
+    }
+
+    /** ML fails where a process has no rows. */
+    bool
+    all_own(const ImplicitOperator &A)
+    {
+      return dealii::Utilities::MPI::min(A.body.n_owned, A.body.mesh.communicator) > 0;
+    }
+
     Method
     choose(const ImplicitOperator &A, std::string &reason)
     {
@@ -42,12 +59,10 @@ namespace Supple
         dealii::Utilities::MPI::n_mpi_processes(A.body.mesh.communicator);
       if (n_ranks > 1)
         {
-          // ML fails where a process has no rows
-          const bool all_own =
-            dealii::Utilities::MPI::min(A.body.n_owned, A.body.mesh.communicator) > 0;
-          reason = std::to_string(n_ranks) + " processes" +
-                   (all_own ? "" : ", some of which own no vertex");
-          return all_own ? Method::cg_ml : Method::cg_jacobi;
+          const bool ml_fails = multigrid(A) == Method::cg_ml && !all_own(A);
+          reason              = std::to_string(n_ranks) + " processes" +
+                   (ml_fails ? ", some of which own no vertex" : "");
+          return ml_fails ? Method::cg_jacobi : multigrid(A);
         }
       const bool constant       = A.body.rotation == RotationMethod::none;
       const Limits limits       = limits_of(A.body.mesh.section.plane(), constant);
@@ -67,7 +82,47 @@ namespace Supple
           return Method::cholmod;
         }
       explain("more than", limits.cholmod);
-      return Method::cg_ml;
+      return multigrid(A);
+    }
+
+    std::unique_ptr<LinearSolver>
+    make(const Method method,
+         const ImplicitOperator &A,
+         const SolverParameters &parameters,
+         Effort &effort)
+    {
+      switch (method)
+        {
+          case Method::ldlt:
+            return make_ldlt_solver(A, parameters, effort);
+          case Method::cholmod:
+            return make_cholmod_solver(A, parameters, effort);
+          case Method::cg_amg:
+            return make_cg_amg_solver(A, parameters, effort);
+          case Method::cg_jacobi:
+            return make_cg_jacobi_solver(A, parameters, effort);
+          default:
+            return make_cg_ml_solver(A, parameters, effort);
+        }
+    }
+
+    /** The solver that takes over when the chosen one fails; none for direct solvers, whose
+     * failure means that A is not positive definite. */
+    std::unique_ptr<LinearSolver>
+    make_stand_in(const Method method,
+                  const ImplicitOperator &A,
+                  const SolverParameters &parameters,
+                  Effort &effort)
+    {
+      if (method == Method::ldlt || method == Method::cholmod)
+        return nullptr;
+      const bool one_process =
+        dealii::Utilities::MPI::n_mpi_processes(A.body.mesh.communicator) == 1;
+      if (one_process && A.body.n_dofs() <= largest_stand_in_factor)
+        return make_cholmod_solver(A, parameters, effort);
+      if (method == Method::cg_amg && all_own(A))
+        return make_cg_ml_solver(A, parameters, effort);
+      return nullptr;
     }
   } // namespace
 
@@ -114,28 +169,22 @@ namespace Supple
     const bool direct = method == Method::ldlt || method == Method::cholmod;
     if (direct && dealii::Utilities::MPI::n_mpi_processes(A.body.mesh.communicator) > 1)
       throw InputError(scene.origin("Solver/Method") +
-                       ": ldlt and cholmod work on one process; on several take cg-ml or auto.");
+                       ": ldlt and cholmod work on one process; on several take cg-amg or auto.");
 
-    std::unique_ptr<LinearSolver> solver;
-    switch (method)
-      {
-        case Method::ldlt:
-          solver = make_ldlt_solver(A, parameters, effort);
-          break;
-        case Method::cholmod:
-          solver = make_cholmod_solver(A, parameters, effort);
-          break;
-        case Method::cg_amg:
-          solver = make_cg_amg_solver(A, parameters, effort);
-          break;
-        case Method::cg_jacobi:
-          solver = make_cg_jacobi_solver(A, parameters, effort);
-          break;
-        default:
-          solver = make_cg_ml_solver(A, parameters, effort);
-      }
-    solver->reason = reason;
+    std::unique_ptr<LinearSolver> solver = make(method, A, parameters, effort);
+    solver->reason                       = reason;
+    if (parameters.method == Method::automatic)
+      solver->stand_in = make_stand_in(method, A, parameters, effort);
+    if (solver->stand_in)
+      A.body.initialize(solver->prepared_at);
     return solver;
+  }
+
+
+  std::string
+  LinearSolver::stand_in_name() const
+  {
+    return stand_in ? stand_in->name() : "";
   }
 
 
@@ -143,7 +192,19 @@ namespace Supple
   LinearSolver::prepare(const Vector &displacement)
   {
     const PhaseTimer timer(effort, Phase::solver_setup);
-    do_prepare(displacement);
+    prepared = stand_in_prepared = false;
+    if (stand_in)
+      prepared_at = displacement;
+    try
+      {
+        do_prepare(displacement);
+        prepared = true;
+      }
+    catch (const ComputationError &)
+      {
+        if (!stand_in)
+          throw;
+      }
   }
 
 
@@ -154,12 +215,46 @@ namespace Supple
 
     if (!all_finite(b))
       throw ComputationError("the forces are not finite numbers");
-    const double size = b.l2_norm();
-    if (size == 0.)
+    if (b.l2_norm() == 0.)
       {
         x = 0.;
         return 0;
       }
+
+    unsigned int n_iterations = 0;
+    try
+      {
+        n_iterations = prepared ? solve_alone(x, b) : solve_by_stand_in(x, b);
+      }
+    catch (const ComputationError &)
+      {
+        if (!stand_in || !prepared)
+          throw;
+        n_iterations = solve_by_stand_in(x, b);
+      }
+    ++effort.solves;
+    effort.linear_iterations += n_iterations;
+    return n_iterations;
+  }
+
+
+  unsigned int
+  LinearSolver::solve_by_stand_in(Vector &x, const Vector &b)
+  {
+    if (!stand_in_prepared)
+      {
+        stand_in->do_prepare(prepared_at);
+        stand_in_prepared = true;
+      }
+    ++effort.stand_in_solves;
+    return stand_in->solve_alone(x, b);
+  }
+
+
+  unsigned int
+  LinearSolver::solve_alone(Vector &x, const Vector &b)
+  {
+    const double size         = b.l2_norm();
     unsigned int n_iterations = do_solve(x, b, residual);
     double relative           = residual.l2_norm() / size;
 
@@ -179,9 +274,6 @@ namespace Supple
              << ". Are cells extremely thin, or the body almost incompressible";
         throw ComputationError(text.str());
       }
-
-    ++effort.solves;
-    effort.linear_iterations += n_iterations;
     effort.max_relative_residual = std::max(effort.max_relative_residual, relative);
     return n_iterations;
   }

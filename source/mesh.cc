@@ -17,17 +17,6 @@ namespace Supple
 
   namespace
   {
-    /** "[0, 4] x [0, 12] x [0, 4]" */
-    std::string
-    extent_of(const BoundingBox<3> &box, const unsigned int dimension)
-    {
-      std::ostringstream text;
-      for (unsigned int d = 0; d < dimension; ++d)
-        text << (d == 0 ? "[" : " x [") << box.lower_bound(d) << ", " << box.upper_bound(d) << "]";
-      return text.str();
-    }
-
-
     /** Of those vertices that cells have. */
     BoundingBox<3>
     box_around(const SerialMesh &mesh)
@@ -89,7 +78,7 @@ namespace Supple
           if (n_faces == 0)
             throw InputError(origin + ": no face of the surface has all its vertices in '" +
                              item.substr(colon + 1) + "'. The body lies in " +
-                             extent_of(box_around(mesh), mesh.dimension) + " m.");
+                             extent_in_words(box_around(mesh), mesh.dimension) + " m.");
         }
     }
   } // namespace
@@ -174,7 +163,7 @@ namespace Supple
   std::string
   Mesh::extent() const
   {
-    return extent_of(bounding_box, section.plane() ? 2 : 3);
+    return extent_in_words(bounding_box, section.plane() ? 2 : 3);
   }
 
 

@@ -11,6 +11,7 @@
 
 namespace Supple
 {
+  using dealii::BoundingBox;
   using dealii::Point;
 
   namespace
@@ -160,6 +161,29 @@ namespace Supple
 
 
     void
+    measure_pieces(const SerialMesh &mesh, const unsigned int n_pieces, MeshReport &report)
+    {
+      report.pieces.resize(n_pieces);
+      std::vector<std::pair<Point<3>, Point<3>>> corners(n_pieces);
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        {
+          const unsigned int piece = report.piece[mesh.cells[c][0]];
+          auto &[low, high]        = corners[piece];
+          if (report.pieces[piece].n_cells++ == 0)
+            low = high = mesh.vertices[mesh.cells[c][0]];
+          for (const unsigned int vertex : mesh.cell_vertices(c))
+            for (unsigned int d = 0; d < 3; ++d)
+              {
+                low[d]  = std::min(low[d], mesh.vertices[vertex][d]);
+                high[d] = std::max(high[d], mesh.vertices[vertex][d]);
+              }
+        }
+      for (unsigned int piece = 0; piece < n_pieces; ++piece)
+        report.pieces[piece].box = BoundingBox<3>(corners[piece]);
+    }
+
+
+    void
     find_pieces(const SerialMesh &mesh, MeshReport &report)
     {
       std::vector<unsigned int> root(mesh.vertices.size());
@@ -184,27 +208,44 @@ namespace Supple
           report.piece[v] = number.emplace(find(v), number.size()).first->second;
         else
           ++report.unused_vertices;
-      report.n_pieces = number.size();
       for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
         if (!used[v])
-          report.piece[v] = report.n_pieces;
+          report.piece[v] = number.size();
+      measure_pieces(mesh, number.size(), report);
+    }
 
-      std::vector<unsigned int> order;
+
+    void
+    count_double_vertices(const SerialMesh &mesh, MeshReport &report)
+    {
+      double size = 0.;
+      for (const auto &piece : report.pieces)
+        size = std::max(size,
+                        piece.box.get_boundary_points().first.distance(
+                          piece.box.get_boundary_points().second));
+      std::vector<std::array<long long, 3>> places;
       for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
-        if (used[v])
-          order.push_back(v);
-      const auto coordinates = [&](const unsigned int v) {
-        return std::array<double, 3>{
-          {mesh.vertices[v][0], mesh.vertices[v][1], mesh.vertices[v][2]}};
-      };
-      std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
-        return coordinates(a) < coordinates(b);
-      });
-      for (std::size_t i = 1; i < order.size(); ++i)
-        if (coordinates(order[i]) == coordinates(order[i - 1]))
-          ++report.double_vertices;
+        if (report.piece[v] < report.pieces.size())
+          {
+            places.emplace_back();
+            for (unsigned int d = 0; d < 3; ++d)
+              places.back()[d] = std::llround(mesh.vertices[v][d] / (1e-9 * size));
+          }
+      std::sort(places.begin(), places.end());
+      for (std::size_t i = 1; i < places.size(); ++i)
+        report.double_vertices += places[i] == places[i - 1];
     }
   } // namespace
+
+
+  std::string
+  extent_in_words(const BoundingBox<3> &box, const unsigned int dimension)
+  {
+    std::ostringstream text;
+    for (unsigned int d = 0; d < dimension; ++d)
+      text << (d == 0 ? "[" : " x [") << box.lower_bound(d) << ", " << box.upper_bound(d) << "]";
+    return text.str();
+  }
 
 
   double
@@ -227,13 +268,14 @@ namespace Supple
     check_cells(mesh, origin, report);
     check_faces(mesh, origin, report);
     find_pieces(mesh, report);
+    count_double_vertices(mesh, report);
 
     const auto warn = [&](const bool wrong, const std::string &text) {
       if (wrong)
         report.warnings.push_back(text);
     };
     warn(report.repaired > 0,
-         std::to_string(report.repaired) + " inverted cell(s) were turned around.");
+         std::to_string(report.repaired) + " inverted cell(s) were reoriented.");
     warn(report.slivers > 0,
          std::to_string(report.slivers) +
            " cell(s) are slivers of a quality below 0.1; the worst is " +
@@ -243,8 +285,8 @@ namespace Supple
     warn(report.double_vertices > 0,
          std::to_string(report.double_vertices) +
            " vertices lie at the place of another one: the body may be cut open there.");
-    warn(report.n_pieces > 1,
-         "The body is in " + std::to_string(report.n_pieces) +
+    warn(report.pieces.size() > 1,
+         "The body is in " + std::to_string(report.pieces.size()) +
            " pieces that do not hang together.");
     return report;
   }

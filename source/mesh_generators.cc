@@ -20,7 +20,7 @@ namespace Supple
 
   namespace
   {
-    /** Appends a cell, turned around if its orientation is negative. */
+    /** Appends a cell, reoriented if its orientation is negative. */
     void
     add_cell(SerialMesh &mesh,
              const std::array<unsigned int, 4> &vertices,

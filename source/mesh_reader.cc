@@ -1,21 +1,21 @@
 #include <supple/error.h>
+#include <supple/mesh_format.h>
 #include <supple/serial_mesh.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <gmsh.h>
 #include <map>
+#include <numeric>
 
 namespace Supple
 {
   namespace
   {
     constexpr int gmsh_line = 1, gmsh_triangle = 2, gmsh_tetrahedron = 4;
-    constexpr int gmsh_quadratic_triangle = 9, gmsh_quadratic_tetrahedron = 11;
 
     /** Gmsh's library is a global thing: it is there while one of these lives. */
     class GmshSession
@@ -60,31 +60,7 @@ namespace Supple
     };
 
 
-    void
-    refuse_other_formats(const std::string &file)
-    {
-      const std::string ending                = std::filesystem::path(file).extension().string();
-      const std::vector<std::string> readable = {".msh", ".vtk", ".unv", ".mesh", ".bdf", ".nas"};
-      const std::vector<std::string> convertible = {
-        ".vtu", ".inp", ".ele", ".node", ".e", ".xdmf", ".med", ".cgns", ".f3grid", ".avs"};
-      if (std::find(readable.begin(), readable.end(), ending) != readable.end())
-        return;
-      if (ending == ".stl" || ending == ".obj" || ending == ".ply" || ending == ".off")
-        throw InputError(
-          "a " + ending +
-          " file holds a surface, which has no volume. Fill it with tetrahedra first, "
-          "for example in Gmsh (Create Volume, Mesh 3D), and save it as .msh.");
-      if (std::find(convertible.begin(), convertible.end(), ending) != convertible.end())
-        throw InputError(
-          "this format is not read. Convert it (package meshio-tools) by\n  meshio convert " +
-          file + " " + std::filesystem::path(file).stem().string() + ".msh --output-format gmsh22");
-      throw InputError("the ending " + ending +
-                       " is not known. Read are .msh (Gmsh), .vtk, .unv, .mesh, .bdf and .nas.");
-    }
-
-
-    /** The model entities of each physical group of a dimension; one group -1 with all if there are
-     * none. */
+    /** The model entities of each physical group of a dimension. */
     std::map<int, std::vector<int>>
     physical_groups(const int dimension)
     {
@@ -142,8 +118,7 @@ namespace Supple
     }
 
 
-    /** Vertices of all elements of a type on an entity (-1: on all), as positions in the list of
-     * nodes. */
+    /** Vertices of all elements of a type on an entity, as positions in the list of nodes. */
     std::vector<std::size_t>
     elements(const int type, const int entity, const std::map<std::size_t, std::size_t> &position)
     {
@@ -164,8 +139,39 @@ namespace Supple
     }
 
 
-    /** Tetrahedra, or triangles where there are none; in the order of the file. Those of a physical
-     * group of their dimension get its number. */
+    /** The order that makes numbers ascend: Gmsh gives nodes and elements entity by entity. */
+    std::vector<std::size_t>
+    ascending(const std::vector<std::size_t> &tags)
+    {
+      std::vector<std::size_t> order(tags.size());
+      std::iota(order.begin(), order.end(), std::size_t(0));
+      std::sort(order.begin(), order.end(), [&](const std::size_t a, const std::size_t b) {
+        return tags[a] < tags[b];
+      });
+      return order;
+    }
+
+
+    /** Sets the vertices by the numbers of the nodes in the file.
+     * @return the vertex of each number */
+    std::map<std::size_t, std::size_t>
+    read_vertices(SerialMesh &mesh)
+    {
+      std::vector<std::size_t> tags;
+      std::vector<double> coordinates, parameters;
+      gmsh::model::mesh::getNodes(tags, coordinates, parameters);
+      std::map<std::size_t, std::size_t> position;
+      for (const std::size_t i : ascending(tags))
+        if (position.emplace(tags[i], mesh.vertices.size()).second)
+          mesh.vertices.emplace_back(coordinates[3 * i],
+                                     coordinates[3 * i + 1],
+                                     coordinates[3 * i + 2]);
+      return position;
+    }
+
+
+    /** Tetrahedra, or triangles where there are none, by their numbers in the file. Those of a
+     * physical group of their dimension get its number. */
     void
     read_cells(SerialMesh &mesh, const std::map<std::size_t, std::size_t> &position)
     {
@@ -182,7 +188,7 @@ namespace Supple
               material.emplace(tag, group);
           }
       const unsigned int n_nodes = mesh.dimension + 1;
-      for (std::size_t c = 0; c < tags.size(); ++c)
+      for (const std::size_t c : ascending(tags))
         {
           std::array<unsigned int, 4> cell;
           cell.fill(dealii::numbers::invalid_unsigned_int);
@@ -230,16 +236,56 @@ namespace Supple
     }
 
 
+    /** Cells of another kind beside ours would be lost. */
+    void
+    refuse_other_cells(const SerialMesh &mesh)
+    {
+      std::vector<int> types;
+      gmsh::model::mesh::getElementTypes(types, mesh.dimension);
+      std::string others;
+      for (const int type : types)
+        if (type != gmsh_tetrahedron && type != gmsh_triangle)
+          {
+            std::string name;
+            int dimension, order, n_nodes, n_primary_nodes;
+            std::vector<double> local_coordinates;
+            gmsh::model::mesh::getElementProperties(
+              type, name, dimension, order, n_nodes, local_coordinates, n_primary_nodes);
+            std::vector<std::size_t> tags, nodes;
+            gmsh::model::mesh::getElementsByType(type, tags, nodes);
+            others +=
+              (others.empty() ? "" : ", ") + std::to_string(tags.size()) + " of the kind " + name;
+          }
+      if (!others.empty())
+        throw InputError("it has cells that are not linear " +
+                         std::string(mesh.dimension == 3 ? "tetrahedra" : "triangles") + ": " +
+                         others +
+                         ". Mesh the body with tetrahedra (in the plane: triangles) of order 1 "
+                         "alone.");
+    }
+
+
     void
     refuse_without_cells(const SerialMesh &mesh)
     {
-      if (has_elements(gmsh_quadratic_tetrahedron) || has_elements(gmsh_quadratic_triangle))
-        throw InputError("its cells are quadratic. Save it with linear ones (Gmsh: -order 1).");
       std::string text = "it has " + std::to_string(mesh.vertices.size()) +
                          " vertices but no tetrahedra" + GmshSession::last_complaint() + ".";
       if (has_elements(gmsh_triangle))
         text += " Triangles alone are a body only if all vertices lie in the plane z = 0.";
       throw InputError(text);
+    }
+
+
+    /** Gmsh drops elements whose number is taken. */
+    void
+    require_all_elements(const std::string &file)
+    {
+      const std::size_t announced = announced_elements(file), loaded = loaded_elements();
+      if (loaded < announced)
+        throw InputError("the file announces " + std::to_string(announced) +
+                         " elements, of which only " + std::to_string(loaded) +
+                         " can be read. Each element needs a number of its own; meshio convert "
+                         "(package meshio-tools) numbers them anew.");
     }
   } // namespace
 
@@ -249,37 +295,25 @@ namespace Supple
   {
     try
       {
-        if (!std::filesystem::is_regular_file(file))
-          throw InputError("there is no such file.");
-        refuse_other_formats(file);
+        require_readable_format(file);
         const GmshSession session(file);
 
-        const std::size_t announced = announced_elements(file), loaded = loaded_elements();
-        if (loaded < announced)
-          throw InputError(
-            "the file announces " + std::to_string(announced) + " elements, of which only " +
-            std::to_string(loaded) +
-            " can be read. Each element needs a number of its own; meshio convert (package "
-            "meshio-tools) numbers them anew.");
+        require_all_elements(file);
 
-        std::vector<std::size_t> tags;
-        std::vector<double> coordinates, parameters;
-        gmsh::model::mesh::getNodes(tags, coordinates, parameters);
         SerialMesh mesh;
-        std::map<std::size_t, std::size_t> position;
-        for (std::size_t i = 0; i < tags.size(); ++i)
-          if (position.emplace(tags[i], mesh.vertices.size()).second)
-            mesh.vertices.emplace_back(coordinates[3 * i],
-                                       coordinates[3 * i + 1],
-                                       coordinates[3 * i + 2]);
+        const auto position = read_vertices(mesh);
         if (!has_elements(gmsh_tetrahedron))
           {
+            refuse_other_cells(mesh);
+            mesh.dimension = 2;
+            refuse_other_cells(mesh);
             if (!has_elements(gmsh_triangle) || !is_flat(mesh))
               refuse_without_cells(mesh);
-            mesh.dimension = 2;
             for (auto &vertex : mesh.vertices)
               vertex[2] = 0.;
           }
+        else
+          refuse_other_cells(mesh);
         read_cells(mesh, position);
         read_boundary(mesh, position);
         return mesh;

@@ -31,17 +31,13 @@ namespace Supple
     }
 
 
-    /** Names the subsection in which an entry is unknown: deal.II only says that it is the current
-     * one. */
+    /** Names an unknown entry in full: deal.II only says that it is in the current subsection. */
     std::string
-    with_section(const std::string &message, const std::map<std::string, std::string> &places)
+    with_section(const std::string &message, const std::string &entry)
     {
-      for (const auto &[entry, place] : places)
-        if (message.rfind(place + ": ", 0) == 0)
-          return std::regex_replace(message,
-                                    std::regex("No entry with name <.*> was declared in .*"),
-                                    "there is no entry " + entry + ".");
-      return message;
+      return std::regex_replace(message,
+                                std::regex("No entry with name <.*> was declared in .*"),
+                                "there is no entry " + entry + ".");
     }
 
 
@@ -149,7 +145,7 @@ namespace Supple
       }
     catch (const dealii::ExceptionBase &exception)
       {
-        throw InputError(plain_message(exception, here));
+        throw InputError(with_section(plain_message(exception, here), section + "/" + name));
       }
     places[section + "/" + name] = override.place;
   }
@@ -166,7 +162,11 @@ namespace Supple
       }
     catch (const dealii::ExceptionBase &exception)
       {
-        throw InputError(with_section(plain_message(exception), places));
+        std::string message = plain_message(exception);
+        for (const auto &[entry, place] : places)
+          if (message.rfind(place + ": ", 0) == 0)
+            message = with_section(message, entry);
+        throw InputError(message);
       }
     for (const Override &override : overrides)
       apply(prm, override);

@@ -107,7 +107,8 @@ namespace Supple
       "Displacement",
       displacement,
       "Displacement of these vertices from rest in time; in a static problem t is the load factor, "
-      "from 0 to 1. Unit: m. Range: three expressions of x, y, z, t set apart by semicolons, or "
+      "from 0 to 1. A step at once is 0.01, a ramp 0.01*min(t/0.1, 1). Unit: m. Range: three "
+      "expressions of x, y, z, t set apart by semicolons, or "
       "the "
       "word free for a direction that is not prescribed.",
       dealii::Patterns::Anything());
@@ -597,12 +598,14 @@ namespace Supple
   {
     prm.enter_subsection("Probes");
     const Patterns::Anything any;
-    prm.add_parameter("Points",
-                      points,
-                      "Named points, such as tip: 2, 0, 2; corner: 0, 0, 0. The vertex nearest to "
-                      "each is followed. "
-                      "Unit: m. Range: name: x, y, z, set apart by semicolons.",
-                      any);
+    prm.add_parameter(
+      "Points",
+      points,
+      "Named points, such as tip: 2, 0, 2; corner: vertex 7. The vertex nearest to "
+      "each, or that of this index of the mesh, is followed. What is moved "
+      "(subsection Motion) is followed in any case, as motion, motion2 ... Unit: m. "
+      "Range: name: x, y, z, or name: vertex index, set apart by semicolons.",
+      any);
     prm.add_parameter(
       "Boundaries",
       boundaries,

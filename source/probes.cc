@@ -17,6 +17,10 @@ namespace Supple
   {
     const ProbeParameters &wanted = parameters.probes;
 
+    for (unsigned int m = 0; m < parameters.motions.size(); ++m)
+      if (!parameters.motions[m].of.empty())
+        add_motion(parameters.motions[m].of, m, parameters);
+
     const std::string points = parameters.origin("Probes/Points");
     for (const auto &[name, text] : named_list(wanted.points, points))
       add_point(name, text, points);
@@ -34,13 +38,36 @@ namespace Supple
     for (const Probe &probe : probes)
       for (const Probe &other : probes)
         if (&probe != &other && probe.name == other.name)
-          throw InputError("Probes: the name '" + probe.name + "' is given twice.");
+          throw InputError("Probes: the name '" + probe.name +
+                           "' is given twice. (What is moved has the names motion, motion2 ...)");
+  }
+
+
+  void
+  Probes::add_motion(const std::string &of, const unsigned int motion, const Parameters &parameters)
+  {
+    const std::string origin = parameters.origin(Parameters::motion_section(motion) + "/Of");
+    const std::string name   = "motion" + (motion == 0 ? "" : std::to_string(motion + 1));
+    const std::string text   = Utilities::trim(of);
+    const std::string point  = text.rfind("nearest to ", 0) == 0 ? text.substr(11) : "";
+    const auto nodes         = body.selected_nodes(text, origin);
+    if (!point.empty() || text.rfind("vertex ", 0) == 0)
+      add_point(name, point.empty() ? text : point, origin);
+    else
+      add_nodes(name, text, nodes);
   }
 
 
   void
   Probes::add_point(const std::string &name, const std::string &text, const std::string &origin)
   {
+    if (text.rfind("vertex ", 0) == 0)
+      {
+        add(name,
+            body.selected_nodes(text, origin),
+            body.vertex_in_words(Utilities::string_to_int(text.substr(7))));
+        return;
+      }
     Point<3> point;
     try
       {
@@ -52,28 +79,18 @@ namespace Supple
     catch (const std::exception &)
       {
         throw InputError(origin + ": '" + text +
-                         "' is no point; three numbers set apart by commas are.");
+                         "' is no point. A point is three numbers set apart by commas, or vertex "
+                         "INDEX.");
       }
 
     const auto [vertex, distance] = body.nearest_vertex(point);
-
-    Probe probe;
-    probe.name    = name;
-    probe.n_nodes = 1;
-    std::vector<double> here(3), position(3);
-    for (unsigned int node = 0; node < body.n_owned; ++node)
-      if (body.serial_vertex[node] == vertex)
-        {
-          probe.nodes.push_back(node);
-          std::copy(body.positions[node].begin(), body.positions[node].end(), here.begin());
-        }
-    Utilities::MPI::sum(here, body.mesh.communicator, position);
-
+    std::vector<bool> nodes(body.n_local);
+    for (unsigned int node = 0; node < body.n_local; ++node)
+      nodes[node] = body.serial_vertex[node] == vertex;
     std::ostringstream description;
-    description << "vertex " << vertex << " at (" << position[0] << ", " << position[1] << ", "
-                << position[2] << "), " << distance << " m from the point asked for";
-    probe.description = description.str();
-    probes.push_back(probe);
+    description << body.vertex_in_words(vertex) << ", " << distance
+                << " m from the point asked for";
+    add(name, nodes, description.str());
   }
 
 
@@ -82,13 +99,23 @@ namespace Supple
                     const std::string &what,
                     const std::vector<bool> &nodes)
   {
+    add(name, nodes, what);
+    probes.back().description += ", " + std::to_string(probes.back().n_nodes) + " vertices";
+  }
+
+
+  void
+  Probes::add(const std::string &name,
+              const std::vector<bool> &nodes,
+              const std::string &description)
+  {
     Probe probe;
-    probe.name = name;
+    probe.name        = name;
+    probe.description = description;
     for (unsigned int node = 0; node < body.n_owned; ++node)
       if (nodes[node])
         probe.nodes.push_back(node);
-    probe.n_nodes     = Utilities::MPI::sum(probe.nodes.size(), body.mesh.communicator);
-    probe.description = what + ", " + std::to_string(probe.n_nodes) + " vertices";
+    probe.n_nodes = Utilities::MPI::sum(probe.nodes.size(), body.mesh.communicator);
     probes.push_back(probe);
   }
 

@@ -42,12 +42,9 @@ namespace Supple
     , progress(talks, Utilities::MPI::n_mpi_processes(communicator) > 1)
     , checkpoint(body, parameters, folder)
   {
-    if (stationary && constraints.n_pieces_free > 0 &&
-        constraints.n_pieces_free < mesh.report.n_pieces)
-      throw InputError(
-        "A static scene needs a body that is held: " + std::to_string(constraints.n_pieces_free) +
-        " of its " + std::to_string(mesh.report.n_pieces) +
-        " pieces, which do not hang together, are not held anywhere.");
+    const std::string free_pieces = constraints.free_pieces_in_words();
+    if (stationary && !free_pieces.empty())
+      throw InputError("A static scene needs a body that is held: " + free_pieces);
     if (stationary && constraints.n_free_rigid_motions > 0)
       throw InputError("A static scene needs a body that is held: " + free_rigid_motions() +
                        ", so that the stiffness is singular. Hold a boundary or a region "
@@ -123,7 +120,7 @@ namespace Supple
           << report.worst_position << "); 1 is regular, 0 is flat";
     line("boundaries", counts(mesh.boundaries) + "; id (number of faces)");
     line("materials", counts(mesh.materials) + "; id (number of cells)");
-    line("pieces", std::to_string(report.n_pieces));
+    line("pieces", std::to_string(report.pieces.size()));
     line("worst cell", worst.str());
     line("repaired", std::to_string(report.repaired) + " inverted cells");
     line("vertices",
@@ -136,9 +133,8 @@ namespace Supple
   Simulation::warnings() const
   {
     std::vector<std::string> list = mesh.report.warnings;
-    if (constraints.n_pieces_free > 0 && constraints.n_pieces_free < mesh.report.n_pieces)
-      list.push_back(std::to_string(constraints.n_pieces_free) + " of the " +
-                     std::to_string(mesh.report.n_pieces) + " pieces are not held anywhere.");
+    if (!constraints.free_pieces_in_words().empty())
+      list.push_back(constraints.free_pieces_in_words());
     if (body.rotation == RotationMethod::gram_schmidt)
       list.push_back(
         "Gram-Schmidt rotations have no elastic energy: 'elastic' is the energy of the same "
@@ -166,6 +162,10 @@ namespace Supple
         "stable for oscillations that hardly decay: these may grow without bounds.");
     if (!energy_from_nowhere().empty())
       list.push_back(energy_from_nowhere());
+    if (effort.stand_in_solves > 0)
+      list.push_back(solver->name() + " failed in " + std::to_string(effort.stand_in_solves) +
+                     " of " + std::to_string(effort.solves) + " systems, which " +
+                     solver->stand_in_name() + " solved in its stead.");
     return list;
   }
 
@@ -451,6 +451,7 @@ namespace Supple
     observer = watching;
     observed = writes_history || writes_frames || observer;
     open_output();
+    warnings_told = warnings();
     print_description(false);
     try
       {
@@ -629,8 +630,9 @@ namespace Supple
     if (implicit_operator.has_mass() && std::isfinite(error_estimate))
       std::cout << ", sum of local errors " << error_estimate << " m";
     std::cout << "; " << (frames ? frames->n_written() : 0) << " frames in " << folder << std::endl;
-    if (!energy_from_nowhere().empty())
-      line("warning", energy_from_nowhere());
+    for (const std::string &text : warnings())
+      if (std::find(warnings_told.begin(), warnings_told.end(), text) == warnings_told.end())
+        line("warning", text);
     if (!step_doubling)
       return;
     if (step_doubling->failure.empty() && largest_motion > 0.)

@@ -101,6 +101,9 @@ namespace Supple
                       {"solves", effort.solves},
                       {"iterations", effort.linear_iterations},
                       {"newton_iterations", effort.newton_iterations}};
+    if (!model.solver.stand_in_name().empty())
+      json["solver"]["stand_in"] = {{"name", model.solver.stand_in_name()},
+                                    {"solves", effort.stand_in_solves}};
 
     json["steps"]            = steps;
     json["rejected_steps"]   = effort.rejected_steps;

@@ -17,6 +17,7 @@ for refinement in [1, 2, 4]:
 orders = [math.log2(coarse / fine) for coarse, fine in zip(errors, errors[1:])]
 runner.check(min(orders) > 1.85 and errors[-1] < 0.004, f"errors {errors}, orders {orders}")
 follower = runner.simulate(CYLINDER, {**finer, "Loads/Pressure follows": "true"}).probes()[-1]["inner.ux"]
+runner.check(abs(follower / EXACT - 1) < 0.005, f"follower pressure {follower}, exact for dead pressure {EXACT}")
 runner.check(abs(follower / dead - 1) < 0.005, f"follower pressure {follower}, dead pressure {dead}")
 print(f"errors {errors}, orders {orders}, follower over dead {follower / dead}")
 runner.check(follower > dead * (1 + 1e-4), "the pressure does not follow the widening wall")

@@ -53,7 +53,7 @@ namespace
                 n_given == mesh.boundary.size() ? "yes" : "no",
                 report.warnings.size(),
                 report.repaired,
-                report.n_pieces);
+                static_cast<unsigned int>(report.pieces.size()));
     for (const auto &[id, size] : area)
       std::printf("  boundary %u: area %.9f\n", id, size);
   }

@@ -79,12 +79,17 @@ wound = {"Start/Rotation": "0, 60, 0", "Start/Rotation center": "2, 0, 2", "Star
 results = runner.simulate(runner.BAR, wound)
 runner.check(results.history()[0]["elastic"] > 1e6, "wound up about its clamp it has energy")
 
-# Static: pulled by a vertex, the reactions balance, and the work is that of a linear spring.
+# Static: pulled by a vertex, the reactions balance, and the work is that of a linear spring. What is moved is followed
+# without being asked for, and the vertex that was taken is named.
 pull = {"Motion/Of": "nearest to 2, 0, 2.1", "Motion/Displacement": "0; -0.1*t; 0", "Loads/Gravity": "0, 0, 0",
         "Time/Steps": 4}
 results = runner.simulate(runner.STATIC, pull)
 last = results.probes()[-1]
 runner.check(abs(last["n28.uy"] + 0.1) < 1e-15 and last["n28.fy"] < -1e5, "the vertex is not pulled")
+for column in ["ux", "uy", "uz", "fx", "fy", "fz"]:
+    runner.check(last["motion." + column] == last["n28." + column], f"motion.{column}")
+status, output, _ = runner.run("--check", runner.STATIC, *runner.overrides(pull))
+runner.check("motion: vertex 28 at (2, 0, 2), 0.1 m from the point asked for" in output, output)
 for direction in "xyz":
     net = last["n28.f" + direction] + last["clamp.f" + direction]
     runner.check(abs(net) < 1e-9 * abs(last["n28.fy"]), f"the reactions add up to {net} N")

@@ -43,12 +43,23 @@ def write(name, *parts):
     return {"Mesh/Shape": "file", "Mesh/File": folder / name}
 
 
-COLUMNS = ["kinetic", "elastic", "potential", "px", "py", "pz", "lx", "ly", "lz", "min_volume_ratio", "max_volume_ratio"]
+# What is measured by the same size.
+COLUMNS = [["kinetic", "elastic", "potential"], ["px", "py", "pz"], ["lx", "ly", "lz"], ["min_volume_ratio", "max_volume_ratio"]]
 BASE = {"Material/Young modulus": 1e6, "Start/Velocity": "0; 0; 0", "Loads/Gravity": "0, 0, -9.81", "Time/Step": 0.02,
         "Time/Steps": 4, "Output/Frames": "none", "Probes/Points": "", "Probes/Boundaries": "",
         "Constraints/Clamped boundaries": "", "Solver/Tolerance": 1e-11}
 HELD = {"Constraints/Clamped region": "x < 1e-9"}
 STATIC = {"Time/Problem": "static", "Time/Steps": 2, "Time/Newton tolerance": 1e-9}
+
+
+def largest_difference(exact, found):
+    """Of two histories, each group of columns measured by its largest value."""
+    worst = 0.0
+    for group in COLUMNS:
+        size = max(abs(row[column]) for row in exact for column in group)
+        difference = max(abs(a[column] - b[column]) for a, b in zip(exact, found, strict=True) for column in group)
+        worst = max(worst, difference / size if size > 0 else difference)
+    return worst
 
 
 def compare(name, *settings, ranks=1):
@@ -58,11 +69,14 @@ def compare(name, *settings, ranks=1):
         scene.update(some)
     exact = runner.simulate(runner.BAR, {**scene, "Solver/Method": "ldlt"})
     found = runner.simulate(runner.BAR, {**scene, "Solver/Method": "cg-amg"}, ranks=ranks)
-    difference = runner.largest_difference(exact.history(), found.history(), COLUMNS)
+    difference = largest_difference(exact.history(), found.history())
     solver = found.summary()["solver"]
     print(f"{name}: within {difference:.1e}, {solver['iterations'] / solver['solves']:.1f} iterations")
     runner.check(solver["name"] == "cg-amg", solver["name"])
-    runner.check(solver["max_relative_residual"] <= 1e-11, f"{name}: residual {solver['max_relative_residual']}")
+    # round-off may leave more than the tolerance, and does so with every solver
+    attainable = max(1e-11, 3 * exact.summary()["solver"]["max_relative_residual"])
+    runner.check(solver["max_relative_residual"] <= attainable,
+                 f"{name}: residual {solver['max_relative_residual']}, {attainable} can be reached")
     runner.check(difference <= 1e-7, f"{name}: the solvers differ by {difference}")
 
 
@@ -88,7 +102,7 @@ compare("soft", block, HELD, {"Time/Step": 1e-5, "Start/Velocity": "0; 0; x*x"})
 compare("stiff", block, HELD, {"Time/Step": 10, "Material/Young modulus": 1e9})
 compare("lumped", block, HELD, {"Material/Mass": "lumped"})
 compare("moved", block, {"Start/Rotation": "30, 60, 90", "Start/Velocity": "y; -x; z*z"})
-compare("sliding", block, {"Constraints/Clamped region": "", "Motion/Of": "region x < 1e-9", "Motion/Along x": "0.1*t"})
+compare("sliding", block, {"Constraints/Clamped region": "", "Motion/Of": "region x < 1e-9", "Motion/Displacement": "0.1*t; free; free"})
 compare("linear", block, HELD, {"Corotation/Rotation": "none"})
 compare("locking", block, HELD, {"Material/Poisson ratio": 0.499})
 compare("static", block, HELD, STATIC, {"Loads/Gravity": "0, 0, -1"})
@@ -96,3 +110,17 @@ compare("static, slivers", slivers, HELD, STATIC, {"Loads/Gravity": "0, 0, -1"})
 compare("static, two layers", layers, HELD, STATIC, MILLION, {"Loads/Gravity": "0, 0, -1"})
 compare("static rod", rod, HELD, STATIC, {"Loads/Gravity": "0, 0, -1e-4"})
 compare("static, linear rod", rod, HELD, STATIC, {"Loads/Gravity": "0, 0, -1e-4", "Corotation/Rotation": "none"})
+compare("two processes", block, HELD, ranks=2)
+compare("pieces on two processes", pieces, HELD, ranks=2)
+compare("static, slivers on two processes", slivers, HELD, STATIC, {"Loads/Gravity": "0, 0, -1"}, ranks=2)
+
+# Chosen by auto, it has a stand-in: here it may take one iteration alone once single precision has failed.
+scene = {**BASE, **block, **HELD, "Material/Poisson ratio": 0.4999999}
+exact = runner.simulate(runner.BAR, {**scene, "Solver/Method": "ldlt"})
+found = runner.simulate(runner.BAR, {**scene, "Solver/Iterations": 1})
+difference = largest_difference(exact.history(), found.history())
+solver = found.summary()["solver"]
+print(f"by the stand-in: within {difference:.1e}, {solver}")
+runner.check(solver["name"] == "cg-amg" and solver["stand_in"]["name"] == "cholmod", solver)
+runner.check(0 < solver["stand_in"]["solves"] <= solver["solves"] and difference <= 1e-7, f"{solver}, {difference}")
+runner.check(any("cholmod solved in its stead" in warning for warning in found.summary()["warnings"]), found.summary()["warnings"])

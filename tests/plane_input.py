@@ -130,7 +130,7 @@ SQUARE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
 HALVES = [(3, (0, 2, 1)), (4, (0, 2, 3))]
 square = write("square.msh", SQUARE, HALVES, [(5, (0, 1)), (6, (2, 3))])
 accepted(square, "2 triangles, 4 vertices in [0, 1] x [0, 1] m, 1 m^3", "0 (2), 5 (1), 6 (1)", "3 (1), 4 (1)",
-         "1 inverted cell(s) were turned around", "worst cell  0.866025")
+         "1 inverted cell(s) were reoriented", "worst cell  0.866025")
 accepted({**square, "Mesh/Scale": 1e-3, "Plane/Model": "axisymmetric"}, "[0, 0.001] x [0, 0.001] m, 3.14159e-09 m^3")
 accepted({**square, "Mesh/Boundary regions": "8: x == 1"}, "0 (1), 5 (1), 6 (1), 8 (1)")
 accepted({**square, "Material/By id": "4: 1e6, 0.3, 900"})

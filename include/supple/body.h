@@ -119,6 +119,10 @@ namespace Supple
     std::vector<bool>
     region_nodes(const std::string &expression, const std::string &origin) const;
 
+    /** "vertex 3 at (0, 0, 1)", for a vertex by its index in the mesh. */
+    std::string
+    vertex_in_words(unsigned int vertex) const;
+
   private:
     /** nearest_vertex() of a point that is not far from the body. @throws InputError beginning with
      * @p origin if it is */

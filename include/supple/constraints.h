@@ -60,7 +60,12 @@ namespace Supple
     unsigned int n_held; ///< degrees of freedom on all processes, without those along z of a
                          ///< plane body
 
-    unsigned int n_pieces_free; ///< pieces of the body of which nothing is held
+    std::vector<unsigned int> free_pieces; ///< those of the body of which nothing is held
+
+    /** Which pieces are free: how many cells each has, and where it is; empty if none is, or if
+     * the whole body is free. */
+    std::string
+    free_pieces_in_words() const;
 
     /** Of a body: six, three in the plane, or one along its axis. */
     unsigned int n_rigid_motions;

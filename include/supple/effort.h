@@ -32,6 +32,7 @@ namespace Supple
     unsigned long hierarchies        = 0; ///< multigrid set-ups
     unsigned long solves             = 0;
     unsigned long linear_iterations  = 0;
+    unsigned long stand_in_solves    = 0; ///< those of them where the first solver had failed
     unsigned long newton_iterations  = 0;
     unsigned long rejected_steps     = 0;  ///< tried and taken back
     unsigned long failed_steps       = 0;  ///< those of them whose equations were not solved

@@ -8,7 +8,12 @@
 
 namespace Supple
 {
-  /** Solves A x = b for an ImplicitOperator A, symmetric and positive definite. */
+  /**
+   * Solves A x = b for an ImplicitOperator A, symmetric and positive definite.
+   *
+   * What `auto` has chosen among the iterative solvers has a stand-in: when it fails, the stand-in
+   * solves that system, and is counted in Effort. A solver that was asked for by name has none.
+   */
   class LinearSolver
   {
   public:
@@ -37,6 +42,10 @@ namespace Supple
     virtual std::string
     name() const = 0;
 
+    /** The name of the solver that takes over when this one fails; empty if there is none. */
+    std::string
+    stand_in_name() const;
+
     std::string reason; ///< why this solver
 
   protected:
@@ -58,7 +67,18 @@ namespace Supple
     virtual unsigned int
     do_solve(Vector &x, const Vector &b, Vector &residual) = 0;
 
+    /** do_solve() and what iterative refinement can mend. @throws ComputationError */
+    unsigned int
+    solve_alone(Vector &x, const Vector &b);
+
+    unsigned int
+    solve_by_stand_in(Vector &x, const Vector &b);
+
     Vector residual, remainder, correction;
+    std::unique_ptr<LinearSolver> stand_in;
+    Vector prepared_at;             ///< displacement A is of [m], kept for the stand-in
+    bool prepared          = false; ///< for A as it is
+    bool stand_in_prepared = false;
   };
 
 

@@ -3,6 +3,8 @@
 
 #include <supple/serial_mesh.h>
 
+#include <deal.II/base/bounding_box.h>
+
 #include <string>
 #include <vector>
 
@@ -14,26 +16,37 @@ namespace Supple
     unsigned int repaired        = 0; ///< cells whose orientation was negative
     unsigned int slivers         = 0; ///< cells of a quality below 0.1
     unsigned int unused_vertices = 0; ///< in no cell
-    unsigned int double_vertices = 0; ///< at the place of another one
+    unsigned int double_vertices = 0; ///< at the place of another one, but for round-off
     double worst_quality         = 1.;
     std::size_t worst_cell       = 0;
     dealii::Point<3> worst_position;
 
-    unsigned int n_pieces = 0;
-    std::vector<unsigned int> piece; ///< of each vertex; n_pieces for an unused one
+    /** What hangs together. */
+    struct Piece
+    {
+      unsigned int n_cells = 0;
+      dealii::BoundingBox<3> box;
+    };
+    std::vector<Piece> pieces;
+    std::vector<unsigned int> piece; ///< of each vertex; pieces.size() for an unused one
 
     std::vector<std::string> warnings; ///< what the user should know, in sentences
   };
 
 
   /**
-   * Looks a mesh through and mends what can be mended: negative cells are turned around, and the
+   * Looks a mesh through and mends what can be mended: negative cells are reoriented, and the
    * boundary gets each face with one cell (id 0 where none was given).
    * @throws InputError beginning with @p origin for flat cells, vertices that do not exist, and
    * faces with more than two cells
    */
   MeshReport
   check_mesh(SerialMesh &mesh, const std::string &origin);
+
+
+  /** "[0, 4] x [0, 12] x [0, 4]"; along x and y alone in two dimensions. */
+  std::string
+  extent_in_words(const dealii::BoundingBox<3> &box, unsigned int dimension);
 
 
   /** Mean ratio of a tetrahedron, 12 (3 V)^(2/3) / sum of squared edges, or of a triangle,

@@ -8,7 +8,7 @@
 
 namespace Supple
 {
-  /** Followed vertices, boundaries and regions: what stands in probes.csv. */
+  /** Followed vertices, boundaries, regions and motions: what stands in probes.csv. */
   class Probes
   {
   public:
@@ -42,11 +42,18 @@ namespace Supple
       unsigned int n_nodes;            ///< on all processes
     };
 
+    /** What a motion moves is followed too: its reaction is the force that the motion takes. */
+    void
+    add_motion(const std::string &of, unsigned int motion, const Parameters &parameters);
+
     void
     add_point(const std::string &name, const std::string &text, const std::string &origin);
 
     void
     add_nodes(const std::string &name, const std::string &what, const std::vector<bool> &nodes);
+
+    void
+    add(const std::string &name, const std::vector<bool> &nodes, const std::string &description);
 
     const Body &body;
     std::vector<Probe> probes;

@@ -207,6 +207,7 @@ namespace Supple
     Checkpoint checkpoint;
 
     std::string summary_text;
+    std::vector<std::string> warnings_told; ///< when the run began
     unsigned int step     = 0;
     bool resumed          = false;
     double seconds_before = 0.; ///< of the runs that this one goes on from
