@@ -1,6 +1,5 @@
 """A page in headless Chromium, steered through the pipe of its DevTools: what report.py needs of it, not called."""
 
-import base64
 import itertools
 import json
 import os
@@ -129,8 +128,3 @@ class Chromium:
             elif method == "Network.requestWillBeSent" and not parameters["request"]["url"].startswith(("file:", "data:", "blob:")):
                 found.append("request to " + parameters["request"]["url"])
         return found
-
-    def picture(self, file, whole=False):
-        """Of what is on the screen, or of the whole page."""
-        data = self.send("Page.captureScreenshot", format="png", captureBeyondViewport=whole)["data"]
-        file.write_bytes(base64.b64decode(data))

@@ -17,8 +17,9 @@ namespace Supple
    * coarse to fine, or a list of cases. Error against run time, observed orders, and which run
    * gives an error soonest.
    *
-   * Into its folder it writes study.csv, study.md, plots of error against run time and against step
-   * or cell size (SVG, PNG and the script of gnuplot they are made by), and a folder for each run.
+   * Into its folder it writes study.csv, study.md, report.html, plots of error against run time and
+   * against step or cell size (SVG, PNG and the script of gnuplot they are made by), and a folder
+   * for each run.
    * The tables are complete after each run.
    */
   class Study
