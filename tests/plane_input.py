@@ -143,7 +143,7 @@ refused(write("flat.msh", [*SQUARE, (0.5, 1, 0)], [*HALVES, (3, (3, 2, 4))]), "1
 refused(write("three.msh", [*SQUARE, (2, 0.5, 0)], [*HALVES, (3, (0, 2, 4))]), "a face has three cells")
 refused(write("surface.msh", [*SQUARE[:3], (0, 1, 0.1)], HALVES), "no tetrahedra", "only if all vertices lie in the plane")
 refused(write("quadratic.msh", [*SQUARE[:3], (0.5, 0, 0), (1, 0.5, 0), (0.5, 0.5, 0)], [(3, (0, 1, 2, 3, 4, 5))], kind=9),
-        "quadratic", "-order 1")
+        "quadratic", "of order 1")
 refused({**write("beyond.msh", [(x - 0.5, y, z) for x, y, z in SQUARE], HALVES), "Plane/Model": "axisymmetric"}, "Mesh/File",
         "can't be negative")
 
