@@ -57,7 +57,15 @@ namespace Supple
     }
 
 
-    /** What encloses all points, with some room. */
+    /** How the numbers of an axis are written: without exponent, or all with one. */
+    std::string
+    format_of(const double lowest, const double highest)
+    {
+      return quoted(lowest < 1e-4 || highest >= 1e6 ? "%.0e" : "%g");
+    }
+
+
+    /** What encloses all points, with some room, and the numbers along it. */
     std::string
     ranges_of(const Plot &plot)
     {
@@ -70,8 +78,41 @@ namespace Supple
             highest = {std::max(highest.first, x), std::max(highest.second, y)};
           }
       std::ostringstream text;
-      text << "set xrange [" << 0.7 * lowest.first << ":" << 1.4 * highest.first << "]\n"
-           << "set yrange [" << 70. * lowest.second << ":" << 140. * highest.second << "]\n";
+      lowest  = {0.7 * lowest.first, 70. * lowest.second};
+      highest = {1.4 * highest.first, 140. * highest.second};
+      text << "set xrange [" << lowest.first << ":" << highest.first << "]\n"
+           << "set yrange [" << lowest.second << ":" << highest.second << "]\n"
+           << "set format x " << format_of(lowest.first, highest.first) << "\n"
+           << "set format y " << format_of(lowest.second, highest.second) << "\n";
+      return text.str();
+    }
+
+
+    /**
+     * The line of a curve. Open marks and lines by turns thick and thin, so that of two curves that
+     * lie on one another both are seen; the numbers of colours and marks have no common divisor, so
+     * that 99 curves differ.
+     */
+    std::string
+    style_of(const std::size_t curve)
+    {
+      const std::vector<const char *> colors = {"#1f77b4",
+                                                "#d62728",
+                                                "#2ca02c",
+                                                "#9467bd",
+                                                "#ff7f0e",
+                                                "#17becf",
+                                                "#8c564b",
+                                                "#e377c2",
+                                                "#7f7f7f",
+                                                "#bcbd22",
+                                                "#000000"};
+      const std::vector<int> marks           = {4, 6, 8, 10, 12, 1, 14, 2, 3};
+
+      std::ostringstream text;
+      text << "lw " << (curve % 2 == 0 ? "3" : "1.5") << " ps 1 pt " << marks[curve % marks.size()]
+           << " dt " << 1 + curve / colors.size() << " lc rgb \"" << colors[curve % colors.size()]
+           << "\"";
       return text.str();
     }
 
@@ -92,27 +133,14 @@ namespace Supple
              << "set xlabel " << quoted(plot.x_title) << "\n"
              << "set ylabel " << quoted("relative error of " + table.error_names.front() + " [%]")
              << " noenhanced\n"
-             << "set format \"%g\"\n"
              << "set grid xtics ytics lt 1 lc rgb \"#dddddd\"\n"
              << "set border 3\nset tics nomirror\n"
              << "set key outside right top noenhanced Left reverse\n"
              << ranges_of(plot) << "plot \\\n";
       if (!plot.front.empty())
         script << "  $front with lines lw 9 lc rgb \"#e4e4e4\" title \"front\", \\\n";
-      const std::vector<const char *> colors = {"#1f77b4",
-                                                "#d62728",
-                                                "#2ca02c",
-                                                "#9467bd",
-                                                "#ff7f0e",
-                                                "#17becf",
-                                                "#8c564b",
-                                                "#e377c2",
-                                                "#7f7f7f",
-                                                "#bcbd22",
-                                                "#000000"};
       for (std::size_t c = 0; c < plot.curves.size(); ++c)
-        script << "  $curve" << c << " with linespoints lw 2 ps 1 pt " << 4 + c % 11 << " dt "
-               << 1 + c / colors.size() << " lc rgb \"" << colors[c % colors.size()] << "\" title "
+        script << "  $curve" << c << " with linespoints " << style_of(c) << " title "
                << quoted(plot.curves[c].name) << (c + 1 < plot.curves.size() ? ", \\\n" : "\n");
 
       std::string body       = script.str();
