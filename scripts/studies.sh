@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Runs the studies of doc/studies.md into output/ and takes their plots into doc/pictures: scripts/studies.sh runs all (ten
-# minutes), scripts/studies.sh NAME... some. SUPPLE=path takes another executable instead of building one. What they
-# say is in output/NAME/study.md; doc/studies.md sums it up by hand.
+# Runs the studies of doc/studies.md into output/ and takes their tables into doc/studies and their plots into doc/pictures:
+# scripts/studies.sh runs all (ten minutes), scripts/studies.sh NAME... some. SUPPLE=path takes another executable instead
+# of building one. doc/studies.md sums the tables up by hand.
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 if [ -n "${SUPPLE:-}" ]; then
@@ -20,8 +20,10 @@ if nice -n -19 true 2> /dev/null; then first=(nice -n -19); fi
 
 studies=("$@")
 if [ $# -eq 0 ]; then studies=(order bar-small bar-large soft-bar stiff-bar vein needle); fi
+mkdir -p doc/studies
 for study in "${studies[@]}"; do
   "${first[@]}" "$supple" "parameters/studies/$study.prm" --output "output/$study"
+  cp "output/$study/study.md" "doc/studies/$study.md"
   plot=work_precision
   if [ "$study" = order ]; then plot=convergence; fi
   cp "output/$study/$plot.svg" "doc/pictures/study-$study.svg"
