@@ -57,15 +57,8 @@ namespace Supple
     }
 
 
-    /** How the numbers of an axis are written: without exponent, or all with one. */
-    std::string
-    format_of(const double lowest, const double highest)
-    {
-      return quoted(lowest < 1e-4 || highest >= 1e6 ? "%.0e" : "%g");
-    }
-
-
-    /** What encloses all points, with some room, and the numbers along it. */
+    /** What encloses all points, with some room; the numbers along both axes without exponent, or
+     * all with one. */
     std::string
     ranges_of(const Plot &plot)
     {
@@ -82,8 +75,12 @@ namespace Supple
       highest = {1.4 * highest.first, 140. * highest.second};
       text << "set xrange [" << lowest.first << ":" << highest.first << "]\n"
            << "set yrange [" << lowest.second << ":" << highest.second << "]\n"
-           << "set format x " << format_of(lowest.first, highest.first) << "\n"
-           << "set format y " << format_of(lowest.second, highest.second) << "\n";
+           << "set format "
+           << quoted(std::min(lowest.first, lowest.second) < 1e-4 ||
+                         std::max(highest.first, highest.second) >= 1e6
+                       ? "%.0e"
+                       : "%g")
+           << "\n";
       return text.str();
     }
 
