@@ -187,24 +187,6 @@ namespace Supple
         "A static step, or a stage of a fixed step, that needs more has failed.");
     add_choice(
       prm,
-      "Energy guard",
-      energy_guard,
-      {{"off", EnergyGuard::off}, {"warn", EnergyGuard::warn}, {"reject", EnergyGuard::reject}},
-      "What is done when the total energy rises by more than the work of a step: nothing, a "
-      "warning "
-      "at the end, or the step is done again, backward euler with rotations that follow, and then "
-      "in halves (fixed steps only).");
-    add_choice(
-      prm,
-      "Estimate error",
-      estimate_error,
-      {{"true", true}, {"false", false}},
-      "Whether a second run with half the step, or a tenth of the tolerances, moves along: "
-      "from how far the two are apart follows the error. It takes two to three times the "
-      "time of the run itself.");
-    prm.leave_subsection();
-    add_choice(
-      prm,
       "Tangent",
       tangent,
       {{"auto", TangentChoice::automatic},
@@ -268,20 +250,21 @@ namespace Supple
     declare_newton(prm);
     add_choice(
       prm,
-      "Tangent",
-      tangent,
-      {{"auto", TangentChoice::automatic},
-       {"frozen", TangentChoice::frozen},
-       {"consistent", TangentChoice::consistent},
-       {"definite", TangentChoice::definite}},
-      "The operator of Newton's method for polar rotations: as if the rotations stayed what they "
-      "are, the derivative of the force, or its projection cell by cell to one that is not "
-      "indefinite. auto takes the derivative, and the projection where that fails.");
-    add(prm,
-        "Retries",
-        n_retries,
-        "none",
-        Range::whole_number(0),
-        "A fixed step that fails is tried again in halves, at most this many times.");
+      "Energy guard",
+      energy_guard,
+      {{"off", EnergyGuard::off}, {"warn", EnergyGuard::warn}, {"reject", EnergyGuard::reject}},
+      "What is done when the total energy rises by more than the work of a step: nothing, a "
+      "warning "
+      "at the end, or the step is done again, backward euler with rotations that follow, and then "
+      "in halves (fixed steps only).");
+    add_choice(
+      prm,
+      "Estimate error",
+      estimate_error,
+      {{"true", true}, {"false", false}},
+      "Whether a second run with half the step, or a tenth of the tolerances, moves along: "
+      "from how far the two are apart follows the error. It takes two to three times the "
+      "time of the run itself.");
+    prm.leave_subsection();
   }
 } // namespace Supple
