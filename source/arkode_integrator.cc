@@ -245,8 +245,14 @@ namespace Supple
     // The force at the end of a stage follows from the solution of its equation.
     ARKStepSetDeduceImplicitRhs(memory, 1);
     ARKStepSetPredictorMethod(memory, 0);
-    set_linear(settings.method == Method::backward_euler ||
-               (model.body.rotation == RotationMethod::none && !model.loads.follow()));
+    set_linear(settings.method == Method::backward_euler || forces_are_linear());
+  }
+
+
+  bool
+  ArkodeIntegrator::forces_are_linear() const
+  {
+    return model.body.rotation == RotationMethod::none && !model.loads.follow();
   }
 
 
@@ -296,14 +302,8 @@ namespace Supple
   ArkodeIntegrator::evolve()
   {
     context.message.clear();
+    // a time that one step does not reach: ARKode would interpolate
     const int status = ARKStepEvolve(memory, 2. * end, unknowns, &ode_time, ARK_ONE_STEP);
-    if (adaptive)
-      {
-        long tried = 0, taken = 0;
-        ARKStepGetNumStepAttempts(memory, &tried);
-        ARKStepGetNumSteps(memory, &taken);
-        model.effort.rejected_steps = tried - taken;
-      }
     if (status >= 0)
       failure.forget(); // what failed on the way was mended by a smaller step
     return status >= 0;
@@ -372,7 +372,7 @@ namespace Supple
     if (!smaller)
       {
         equation.set_rotations(EquationOfMotion::Rotations::following);
-        set_linear(model.body.rotation == RotationMethod::none);
+        set_linear(forces_are_linear());
       }
     size_limit = smaller ? 0.5 * last_size : last_size;
     if (time == grid * settings.step) // it is where the step to be done again has landed

@@ -292,14 +292,21 @@ namespace Supple
   }
 
 
+  Point<3>
+  Body::place_of_vertex(const unsigned int vertex) const
+  {
+    Tensor<1, 3> place;
+    for (unsigned int node = 0; node < n_owned; ++node)
+      if (serial_vertex[node] == vertex)
+        place = position(node);
+    return Point<3>(Utilities::MPI::sum(place, mesh.communicator));
+  }
+
+
   std::string
   Body::vertex_in_words(const unsigned int vertex) const
   {
-    std::vector<double> here(3), place(3);
-    for (unsigned int node = 0; node < n_owned; ++node)
-      if (serial_vertex[node] == vertex)
-        std::copy(positions[node].begin(), positions[node].end(), here.begin());
-    Utilities::MPI::sum(here, mesh.communicator, place);
+    const Point<3> place = place_of_vertex(vertex);
     std::ostringstream text;
     text << "vertex " << vertex << " at (" << place[0] << ", " << place[1] << ", " << place[2]
          << ")";

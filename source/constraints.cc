@@ -14,6 +14,24 @@ namespace Supple
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** By differences at five times from @p time to @p time + 4 @p interval, of fourth order. */
+    double
+    rate(const Expression &displacement,
+         const Point<3> &place,
+         const double time,
+         const double interval)
+    {
+      const std::array<double, 5> weights = {{-25. / 12., 4., -3., 4. / 3., -1. / 4.}};
+      double sum                          = 0.;
+      for (unsigned int k = 0; k < weights.size(); ++k)
+        sum += weights[k] * displacement.value(place, time + k * interval);
+      return sum / interval;
+    }
+  } // namespace
+
+
   Constraints::Constraints(const Body &body, const Parameters &parameters)
     : body(body)
     , held(3 * body.n_local)
@@ -154,7 +172,7 @@ namespace Supple
       {
         if (components[i] == "free")
           continue;
-        motions.push_back({i, Expression(components[i], 1, origin), {}});
+        motions.push_back({i, Expression(components[i], 1, origin), {}, sample_of(nodes)});
         unsigned int n_twice = 0, n_by_nature = 0;
         for (unsigned int node = 0; node < body.n_local; ++node)
           if (nodes[node] && body.is_held_by_nature(3 * node + i))
@@ -179,6 +197,17 @@ namespace Supple
   }
 
 
+  Point<3>
+  Constraints::sample_of(const std::vector<bool> &nodes) const
+  {
+    unsigned int first = numbers::invalid_unsigned_int;
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      if (nodes[node])
+        first = std::min(first, body.serial_vertex[node]);
+    return body.place_of_vertex(Utilities::MPI::min(first, body.mesh.communicator));
+  }
+
+
   void
   Constraints::set_displacement(Vector &displacement, const double time) const
   {
@@ -193,16 +222,25 @@ namespace Supple
   void
   Constraints::set_velocity(Vector &velocity, const double time, const double interval) const
   {
-    const std::array<double, 5> weights = {{-25. / 12., 4., -3., 4. / 3., -1. / 4.}};
     set_zero(velocity);
     for (const Motion &motion : motions)
       for (const unsigned int node : motion.nodes)
-        {
-          double sum = 0.;
-          for (unsigned int k = 0; k < weights.size(); ++k)
-            sum += weights[k] * motion.displacement.value(body.position(node), time + k * interval);
-          velocity.local_element(3 * node + motion.direction) = sum / interval;
-        }
+        velocity.local_element(3 * node + motion.direction) =
+          rate(motion.displacement, body.position(node), time, interval);
+  }
+
+
+  bool
+  Constraints::jump(const double start, const double end) const
+  {
+    const double interval = 1e-4 * (end - start), round_off = 1e-6 * body.mesh.diameter();
+    return std::any_of(motions.begin(), motions.end(), [&](const Motion &motion) {
+      const Expression &u = motion.displacement;
+      const double way    = std::abs(u.value(motion.sample, end) - u.value(motion.sample, start));
+      const double speeds = std::abs(rate(u, motion.sample, start, interval)) +
+                            std::abs(rate(u, motion.sample, end, -interval));
+      return way > 2. * (end - start) * speeds + round_off;
+    });
   }
 
 

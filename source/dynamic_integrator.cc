@@ -121,6 +121,7 @@ namespace Supple
         guard.accept();
         accept_step();
       }
+    model.effort.jumps += model.constraints.move() && model.constraints.jump(start, report.time);
     report.linear_iterations = equation.linear_iterations - iterations_so_far;
     return report;
   }

@@ -164,6 +164,11 @@ namespace Supple
         "stable for oscillations that hardly decay: these may grow without bounds.");
     if (!energy_from_nowhere().empty())
       list.push_back(energy_from_nowhere());
+    if (effort.jumps > 0)
+      list.push_back("In " + std::to_string(effort.jumps) +
+                     " steps a prescribed motion jumps, or swings to and fro: what it does to the "
+                     "body depends on the step and the mesh. Move it over some steps, such as by "
+                     "min(t/0.1, 1), or take shorter ones.");
     if (effort.stand_in_solves > 0)
       list.push_back(solver->name() + " failed in " + std::to_string(effort.stand_in_solves) +
                      " of " + std::to_string(effort.solves) + " systems, which " +
@@ -296,7 +301,8 @@ namespace Supple
     line("time", time.str());
     if (const auto stable = integrator->stable_step())
       line("stable step", "up to " + stable->description());
-    line("solver", solver->name() + " (" + solver->reason + ")");
+    if (stationary || !parameters.time.is_explicit())
+      line("solver", solver->name() + " (" + solver->reason + ")");
     for (const std::string &text : probes.descriptions())
       line("probe", text);
     for (const std::string &text : warnings())

@@ -76,6 +76,7 @@ namespace Supple
         return;
       }
 
+    // line search by halves
     const Vector start            = displacement;
     const double energy_before    = energy(start, load_factor);
     const double imbalance_before = free_residual.l2_norm();

@@ -31,10 +31,13 @@ namespace Supple
     }
 
 
+    /** The error over the distance from the second run. With variable steps the tolerance is that
+     * of a step, whose length goes with its (p+1)-st root, and the error with its p-th power. */
     double
     factor_of(const TimeParameters &time)
     {
-      const double gain = time.has_variable_steps() ? 10. : std::pow(2., time.order());
+      const double p    = time.order();
+      const double gain = time.has_variable_steps() ? std::pow(10., p / (p + 1.)) : std::pow(2., p);
       return gain / (gain - 1.);
     }
   } // namespace

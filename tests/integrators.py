@@ -93,7 +93,7 @@ def convergence():
 def error_bound(order, tolerance):
     """Of displacements over the largest one. What a step may err by adds up over steps whose length goes with the
     (p+1)-st root of it."""
-    return (15 if order == 1 else 5) * tolerance ** (order / (order + 1))
+    return (5 if order == 1 else 1.6) * tolerance ** (order / (order + 1))
 
 
 def tolerances():

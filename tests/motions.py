@@ -97,6 +97,14 @@ runner.check(abs(results.history()[-1]["elastic"] / (0.5 * 0.1 * -last["n28.fy"]
 polar = runner.simulate(runner.STATIC, {**pull, "Corotation/Rotation": "polar"})
 runner.check(abs(polar.probes()[-1]["n28.fy"] / last["n28.fy"] - 1) < 0.05, "polar and linear differ")
 
+# A motion that jumps is no motion: that is said; ramps with kinks and a jump before the start are none.
+for displacement, jumps in [("free; free; if(t > 0.1, 1, 0)", 1), ("free; free; min(t/0.1, 1)", 0), ("free; free; 0.3", 0)]:
+    for method in ["backward euler", "esdirk4"]:
+        moved = {**free, "Motion/Of": "region y == 0", "Motion/Displacement": displacement, "Time/Steps": 5, "Time/Method": method,
+                 "Constraints/Clamped boundaries": 3}
+        warnings = runner.simulate(runner.BAR, moved).summary()["warnings"]
+        runner.check(sum("In 1 steps a prescribed motion jumps" in text for text in warnings) == jumps, f"{displacement}: {warnings}")
+
 for entry, value, words in [("Of", "vertex 99", "indices go from 0 to 80"), ("Of", "tip", "nearest to X, Y, Z"),
                             ("Of", "boundary 9", "no boundary 9"), ("Of", "region x > 9", "no vertex"),
                             ("Of", "boundary 3", "held or moved already"), ("Displacement", "0; 0", "there must be 3"),

@@ -119,6 +119,10 @@ namespace Supple
     std::vector<bool>
     region_nodes(const std::string &expression, const std::string &origin) const;
 
+    /** At rest [m], of a vertex by its index in the mesh; collective. */
+    dealii::Point<3>
+    place_of_vertex(unsigned int vertex) const;
+
     /** "vertex 3 at (0, 0, 1)", for a vertex by its index in the mesh. */
     std::string
     vertex_in_words(unsigned int vertex) const;

@@ -53,6 +53,11 @@ namespace Supple
     void
     set_velocity(Vector &velocity, double time, double interval) const;
 
+    /** Whether a prescribed displacement changes between two times [s] by far more than its
+     * velocities there let it: it jumps, or swings to and fro in between. */
+    bool
+    jump(double start, double end) const;
+
     /** Copies the held entries. */
     void
     copy_held(Vector &to, const Vector &from) const;
@@ -79,12 +84,17 @@ namespace Supple
       unsigned int direction;
       Expression displacement;
       std::vector<unsigned int> nodes; ///< owned
+      dealii::Point<3> sample;         ///< one of the vertices, the same on all processes
     };
 
     void
     add_motion(const MotionParameters &motion,
                const std::string &section,
                const Parameters &parameters);
+
+    /** A vertex among those selected. */
+    dealii::Point<3>
+    sample_of(const std::vector<bool> &nodes) const;
 
     const Body &body;
     std::vector<Motion> motions;

@@ -35,6 +35,7 @@ namespace Supple
     unsigned long stand_in_solves    = 0; ///< those of them where the first solver had failed
     unsigned long newton_iterations  = 0;
     unsigned long rejected_steps     = 0;  ///< tried and taken back
+    unsigned long jumps              = 0;  ///< steps in which a prescribed motion jumps
     unsigned long failed_steps       = 0;  ///< those of them whose equations were not solved
     double max_relative_residual     = 0.; ///< true residual over right hand side, worst solve
 

@@ -304,7 +304,7 @@ namespace Supple
     bool
     is_explicit() const;
 
-    /** With which power of a fixed step the error falls; 0 for ida, which changes its order. */
+    /** With which power of the step the error falls; of ida its maximum order. */
     unsigned int
     order() const;
 
