@@ -64,7 +64,8 @@ namespace Supple
     }
 
 
-    /** As far as the function stays below a limit in one direction: the point there. */
+    /** As far as the function stays below a limit in one direction: the farthest point that was
+     * seen to. COBYLA itself may end beyond the limit. */
     std::vector<double>
     farthest(Objective &function,
              const double limit,
@@ -75,14 +76,20 @@ namespace Supple
       Objective coordinate = [=](const std::vector<double> &x) {
         return upward ? -x[direction] : x[direction];
       };
-      Objective excess = [&](const std::vector<double> &x) { return function(x) / limit - 1.; };
-      nlopt::opt opt   = optimizer(nlopt::LN_COBYLA, 0.05, 1e-3);
+      std::vector<double> reached = start;
+      Objective excess            = [&](const std::vector<double> &x) {
+        const double value = function(x);
+        if (value <= limit && coordinate(x) < coordinate(reached))
+          reached = x;
+        return value / limit - 1.;
+      };
+      nlopt::opt opt = optimizer(nlopt::LN_COBYLA, 0.05, 1e-3);
       opt.set_min_objective(evaluate, &coordinate);
       opt.add_inequality_constraint(evaluate, &excess, 1e-4);
       std::vector<double> point = start;
       double value;
       opt.optimize(point, value);
-      return point;
+      return reached;
     }
   } // namespace
 
