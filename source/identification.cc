@@ -203,8 +203,7 @@ namespace Supple
                             errors.needle_depths,
                             found.lowest,
                             found.highest,
-                            at_bounds,
-                            found.n_values});
+                            at_bounds});
     };
 
     for (std::size_t s = 0; s < sets.size(); ++s)

@@ -1,6 +1,8 @@
 #include <supple/error.h>
 #include <supple/identification_fit.h>
 
+#include <boost/math/tools/minima.hpp>
+
 #include <nlopt.hpp>
 
 #include <algorithm>
@@ -64,32 +66,58 @@ namespace Supple
     }
 
 
-    /** As far as the function stays below a limit in one direction: the farthest point that was
-     * seen to. COBYLA itself may end beyond the limit. */
-    std::vector<double>
+    /**
+     * Least value along one coordinate of the unit square, where the other one is fixed: looked for
+     * by Brent's method around where it was last.
+     * @param point its free coordinate is set to where the least value is
+     */
+    double
+    least_value(Objective &function, std::vector<double> &point, const unsigned int fixed)
+    {
+      constexpr double reach = 0.1; // of the square's side
+      constexpr int bits     = 9;   // of the accuracy of that
+
+      const unsigned int free   = 1 - fixed;
+      const double last         = point[free];
+      const auto [place, value] = boost::math::tools::brent_find_minima(
+        [&](const double x) {
+          point[free] = x;
+          return function(point);
+        },
+        std::max(0., last - reach),
+        std::min(1., last + reach),
+        bits);
+      point[free] = place;
+      return value;
+    }
+
+
+    /**
+     * How far one coordinate goes in a direction until the least value over the other one passes a
+     * limit: along the valley in growing steps, then back in halves.
+     */
+    double
     farthest(Objective &function,
              const double limit,
-             const std::vector<double> &start,
+             std::vector<double> point,
              const unsigned int direction,
              const bool upward)
     {
-      Objective coordinate = [=](const std::vector<double> &x) {
-        return upward ? -x[direction] : x[direction];
-      };
-      std::vector<double> reached = start;
-      Objective excess            = [&](const std::vector<double> &x) {
-        const double value = function(x);
-        if (value <= limit && coordinate(x) < coordinate(reached))
-          reached = x;
-        return value / limit - 1.;
-      };
-      nlopt::opt opt = optimizer(nlopt::LN_COBYLA, 0.05, 1e-3);
-      opt.set_min_objective(evaluate, &coordinate);
-      opt.add_inequality_constraint(evaluate, &excess, 1e-4);
-      std::vector<double> point = start;
-      double value;
-      opt.optimize(point, value);
-      return reached;
+      constexpr double first_step = 0.01, longest_step = 0.05, accuracy = 2e-3;
+
+      const double end = upward ? 1. : 0.;
+      bool passed      = false;
+      for (double step = first_step; step > accuracy && point[direction] != end;)
+        {
+          std::vector<double> next = point;
+          next[direction]          = std::clamp(point[direction] + (upward ? step : -step), 0., 1.);
+          if (least_value(function, next, direction) <= limit)
+            point = next;
+          else
+            passed = true;
+          step = passed ? 0.5 * step : std::min(2. * step, longest_step);
+        }
+      return point[direction];
     }
   } // namespace
 
@@ -102,12 +130,11 @@ namespace Supple
            const double tolerance)
   {
     const UnitSquare square(lowest, highest);
-    FitResult result{start, 0., {}, {}, 0};
+    FitResult result{start, 0., {}, {}};
     std::exception_ptr failure; // does not find its way through NLopt
     Objective objective = [&](const std::vector<double> &point) {
       try
         {
-          ++result.n_values;
           return function(square.pair(point));
         }
       catch (...)
@@ -130,11 +157,11 @@ namespace Supple
         for (const unsigned int direction : {0, 1})
           for (const bool upward : {false, true})
             {
-              const LayerPair end =
-                square.pair(farthest(objective, limit, best, direction, upward));
-              LayerPair &extent = upward ? result.highest : result.lowest;
+              std::vector<double> end = best;
+              end[direction]          = farthest(objective, limit, best, direction, upward);
+              LayerPair &extent       = upward ? result.highest : result.lowest;
               (direction == 0 ? extent.thickness : extent.ratio) =
-                direction == 0 ? end.thickness : end.ratio;
+                direction == 0 ? square.pair(end).thickness : square.pair(end).ratio;
             }
       }
     catch (const std::exception &exception)

@@ -13,14 +13,13 @@ namespace Supple
     LayerPair pair;
     double value;
     LayerPair lowest, highest; ///< of all pairs whose value is within the tolerance
-    unsigned int n_values;     ///< that it took
   };
 
 
   /**
-   * The least value of a function by BOBYQA, and the extent of the set where it is at most 1 +
-   * tolerance times that by COBYLA (both Powell's, in NLopt), in thickness and logarithm of the
-   * ratio. Neither needs derivatives.
+   * The least value of a function by BOBYQA (Powell 2009, in NLopt) and the extent of the set where
+   * it is at most 1 + tolerance times that: how far one of thickness and logarithm of the ratio
+   * goes until the least value over the other passes that limit. No derivatives are needed.
    * @param start   inside the bounds
    * @param lowest  bounds of the search
    * @param highest

@@ -29,7 +29,6 @@ namespace Supple
     std::vector<double> needle_depths;
     LayerPair lowest, highest; ///< of the pairs within the tolerance
     bool at_bounds;            ///< the pair lies on an edge of the grid
-    unsigned int n_solutions;
   };
 
 
