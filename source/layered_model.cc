@@ -206,8 +206,26 @@ namespace Supple
 
 
   void
+  LayeredModel::check_depths(const std::vector<MeasuredSet> &sets) const
+  {
+    const double unit = identification.unit_length();
+    for (const MeasuredSet &set : sets)
+      for (std::size_t i = 0; i < set.depths.size(); ++i)
+        if (set.depths[i] >= height())
+          {
+            std::ostringstream text;
+            text << set.places[i] << ": the depth is " << set.depths[i] / unit << " "
+                 << identification.unit_name() << ", outside the model, which is "
+                 << height() / unit << " " << identification.unit_name() << " high.";
+            throw InputError(text.str());
+          }
+  }
+
+
+  void
   LayeredModel::check(const LayerPair &pair, const std::vector<MeasuredSet> &sets) const
   {
+    check_depths(sets);
     const Simulation simulation(read_scene(pair), "", true, communicator);
     const auto line = line_of(
       dealii::Utilities::MPI::broadcast(communicator, simulation.profile(identification.profile)));

@@ -70,6 +70,10 @@ namespace Supple
     void
     check_profile() const;
 
+    /** @throws InputError for a measured depth that the body does not have */
+    void
+    check_depths(const std::vector<MeasuredSet> &sets) const;
+
     /** Vertices of the surface in line with the needle, from rows of the profile. */
     std::vector<SurfaceResponse::Vertex>
     line_of(const std::vector<std::vector<double>> &rows) const;
