@@ -5,4 +5,4 @@ source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 install_missing run test
 build "$root/build"
 cd "$root/build"
-exec ctest --output-on-failure --no-tests=error -j "$(nproc)" "$@"
+exec ctest --output-on-failure --no-tests=error -j "$(getconf _NPROCESSORS_ONLN)" "$@"
