@@ -255,6 +255,49 @@ namespace Supple
   }
 
 
+  namespace
+  {
+    /** When frames are written, by each of OutputParameters::Frames. */
+    void
+    declare_frame_conditions(ParameterHandler &prm, OutputParameters &output)
+    {
+      add(prm,
+          "Motion",
+          output.motion,
+          "fraction of the body's diameter",
+          Range::between(0, infinity),
+          "Adaptive: a frame is written when some vertex has moved this far since the last one.");
+      add(
+        prm,
+        "Volume ratio change",
+        output.volume_ratio_change,
+        "none",
+        Range::between(0, infinity),
+        "Adaptive: a frame is written when the largest or smallest volume ratio passes that of all "
+        "earlier frames by "
+        "this much, and when the first cell is inverted.");
+      add(prm,
+          "Longest interval",
+          output.longest_interval,
+          "s",
+          Range::at_least(0),
+          "Adaptive: longest time without a frame; 0: no limit.");
+      add(prm,
+          "Every",
+          output.every,
+          "steps",
+          Range::whole_number(1),
+          "Frames = every: number of steps from frame to frame.");
+      add(prm,
+          "Interval",
+          output.interval,
+          "s",
+          Range::between(0, infinity),
+          "Frames = interval: time from frame to frame.");
+    }
+  } // namespace
+
+
   void
   OutputParameters::declare(ParameterHandler &prm)
   {
@@ -275,38 +318,7 @@ namespace Supple
                "When a frame (VTU) is written: when something has happened, every so many steps, "
                "at intervals of time, "
                "or never. The first and the last state are always written, unless there are none.");
-    add(prm,
-        "Motion",
-        motion,
-        "fraction of the body's diameter",
-        Range::between(0, infinity),
-        "Adaptive: a frame is written when some vertex has moved this far since the last one.");
-    add(prm,
-        "Volume ratio change",
-        volume_ratio_change,
-        "none",
-        Range::between(0, infinity),
-        "Adaptive: a frame is written when the largest or smallest volume ratio passes that of all "
-        "earlier frames by "
-        "this much, and when the first cell is inverted.");
-    add(prm,
-        "Longest interval",
-        longest_interval,
-        "s",
-        Range::at_least(0),
-        "Adaptive: longest time without a frame; 0: no limit.");
-    add(prm,
-        "Every",
-        every,
-        "steps",
-        Range::whole_number(1),
-        "Frames = every: number of steps from frame to frame.");
-    add(prm,
-        "Interval",
-        interval,
-        "s",
-        Range::between(0, infinity),
-        "Frames = interval: time from frame to frame.");
+    declare_frame_conditions(prm, *this);
     add(prm,
         "History",
         history,
