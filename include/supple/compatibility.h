@@ -1,8 +1,8 @@
 #ifndef supple_compatibility_h
 #define supple_compatibility_h
 
-/** @file What differs between deal.II 9.4 with SUNDIALS 6 (Debian 12) and deal.II 9.6 with SUNDIALS
- * 7 (Debian 13). */
+/** @file
+ * deal.II 9.4, SUNDIALS 6 (Debian 12) beside deal.II 9.6, SUNDIALS 7 (13): what differs. */
 
 #include <deal.II/base/config.h>
 
