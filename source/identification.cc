@@ -2,6 +2,7 @@
 #include <supple/identification.h>
 #include <supple/interrupt.h>
 #include <supple/progress.h>
+#include <supple/report.h>
 #include <supple/tables.h>
 
 #include <algorithm>
@@ -79,6 +80,7 @@ namespace Supple
           for (const char *name : {"identification", "profiles"})
             for (const char *ending : {".csv", ".md", ".gp", ".svg", ".png"})
               fs::remove(fs::path(folder) / (std::string(name) + ending));
+          fs::remove(fs::path(folder) / "report.html");
           for (const auto &entry : fs::directory_iterator(folder))
             if (entry.path().filename().string().rfind("errors_", 0) == 0)
               fs::remove(entry.path());
@@ -248,6 +250,7 @@ namespace Supple
       return;
     write_whole_file(folder + "/identification.md", table.markdown());
     write_whole_file(folder + "/profiles.csv", table.profiles_csv());
+    write_report(folder, table);
     const std::string problem = plot_identification(table, folder);
     if (!problem.empty())
       say(problem);

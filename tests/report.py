@@ -169,6 +169,20 @@ table = Page(runner.Results(folder / "study")).data
 runner.check(table["kind"] == "study" and len(table["rows"]) == 5 and all(row["error"] > 0 for row in table["rows"]), f"{table}")
 runner.check(not list((folder / "study").glob("runs/*/report.html")), "each run of a study has a report")
 
+# An identification: a page of all its pairs and the best surfaces.
+status, _, error = runner.run(runner.ROOT / "parameters" / "skin" / "tables-3.3.prm", "--quiet", "--output", folder / "identification",
+                              "--set", "Identification/Thicknesses=0.75, 1.5", "--set", "Identification/Elasticity ratios=3, 7, 15")
+runner.check(status == 0, error)
+fitted = runner.Results(folder / "identification")
+skin = Page(fitted).data
+runner.check(skin["kind"] == "identification" and skin["csv"] == (fitted.folder / "identification.csv").read_text(), "pairs")
+surfaces = fitted.table("profiles.csv")
+shown = [(profile["set"], distance, measured, computed) for profile in skin["profiles"]
+         for distance, measured, computed in zip(profile["distances"], profile["measured"], *profile["computed"].values())]
+runner.check(len(shown) == len(surfaces) > 10, f"{len(shown)} of {len(surfaces)} points")
+for row, point in zip(surfaces, shown):
+    runner.check(all(abs(a - b) <= 1e-6 * abs(a) for a, b in zip(row.values(), point)), f"{row} is shown as {point}")
+
 if not chromium.program():
     print("There is no Chromium: pages were not opened.")
     raise SystemExit(0)
@@ -269,3 +283,14 @@ with chromium.Chromium() as browser:
     opens(browser, folder / "study" / "report.html", "study", **SMALLER)
     runner.check(browser.evaluate("document.querySelectorAll('.chart canvas').length") == 2, "the plots of a study")
     runner.check(browser.evaluate("document.querySelectorAll('.study tbody tr').length") == 5, "the table of a study")
+
+    opens(browser, folder / "identification" / "report.html", "identification", **SMALLER)
+    errors = {(row["thickness"], row["ratio"]): row for row in fitted.table("identification.csv")}
+    for kind, column in [("root_of_squares", "root_of_squares"), ("error_1", "error_1")]:
+        browser.evaluate(f"(s => {{ s.value = '{kind}'; s.dispatchEvent(new Event('change')); }})(document.querySelector('.heat-map select'))")
+        best = min(errors.values(), key=lambda row: row[column])
+        told = browser.evaluate("document.querySelector('.heat td.best').title")
+        runner.check(told.startswith(f"{best['thickness']:g} mm and {best['ratio']:g}: "), f"the framed pair is {told}, not {best}")
+        runner.check(browser.evaluate("document.querySelectorAll('.heat td').length") == 6, "cells of the heat map")
+    runner.check(browser.evaluate("document.querySelectorAll('.chart canvas').length") == 1, "the plot of the surfaces")
+    opens(browser, folder / "identification" / "report.html", "identification, phone", width=390, height=844, phone=True, dark=True)

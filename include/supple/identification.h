@@ -11,8 +11,8 @@ namespace Supple
    * Two layers of skin from the shape of its surface under a needle: the error of each pair of
    * thickness and elasticity ratio on a grid, and between them by an optimizer.
    *
-   * Into its folder it writes identification.csv, identification.md, profiles.csv, heat maps and
-   * the best profiles (SVG, PNG and the scripts of gnuplot they are made by).
+   * Into its folder it writes identification.csv, identification.md, profiles.csv, report.html,
+   * heat maps and the best profiles (SVG, PNG and the scripts of gnuplot they are made by).
    */
   class Identification
   {

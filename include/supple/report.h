@@ -8,6 +8,7 @@
 
 namespace Supple
 {
+  struct IdentificationTable;
   struct StudyTable;
 
   /** The page without its data, as scripts/build-report.sh makes it of source/report. */
@@ -33,6 +34,12 @@ namespace Supple
   /** The same of a study: its table, and a plot of error against run time. @throws WriteError */
   void
   write_report(const std::string &folder, const StudyTable &table);
+
+
+  /** The same of an identification: heat maps of the errors, and the best profiles. @throws
+   * WriteError */
+  void
+  write_report(const std::string &folder, const IdentificationTable &table);
 } // namespace Supple
 
 #endif

@@ -1,4 +1,4 @@
-// Curves over time, and of studies.
+// Curves over time, of studies and of identifications.
 
 import uPlot from 'uplot';
 
@@ -139,5 +139,37 @@ export class ErrorChart {
       if (square < least) [nearest, least] = [row, square];
     }
     if (nearest) this.pointed.textContent = `${nearest.label}: ${digits(100 * nearest.error, 3)} % in ${digits(nearest.seconds, 3)} s`;
+  }
+}
+
+/** Measured and computed surfaces, downwards: points and lines of one colour for each set. */
+export class ProfileChart {
+  /** @param profiles [{set, pair, distances, measured, computed: {side: depths}}, ...] */
+  constructor(profiles, unit) {
+    this.holder = element('div', {class: 'chart tall'});
+    this.root = element('section', {class: 'curves', 'aria-label': 'Profiles'}, element('h3', {}, `Depth of the surface in ${unit}: measured (points), and by the best pair of each set (lines)`), this.holder);
+    this.profiles = profiles;
+    this.unit = unit;
+  }
+
+  draw() {
+    const value = (_, number) => (number === null || number === undefined ? '–' : digits(number, 4));
+    const tables = [], series = [];
+    this.profiles.forEach(({set, pair, distances, measured, computed}, number) => {
+      const sides = Object.entries(computed), {stroke} = lineStyle(number);
+      const order = distances.map((_, i) => i).sort((i, j) => distances[i] - distances[j]);
+      const sorted = (column) => order.map((i) => column[i]);
+      tables.push([distances, measured, ...sides.map(([, depths]) => depths)].map(sorted));
+      series.push({label: `set ${set}, measured`, value, stroke, paths: () => null, points: {show: true, size: 7, fill: stroke}});
+      sides.forEach(([side, ], n) => series.push({label: `set ${set}, ${pair}${sides.length > 1 ? `, ${side}` : ''}`, value, stroke, width: 2, dash: DASHES[n], spanGaps: true, points: {show: false}}));
+    });
+    this.chart = mount({
+      height: 360,
+      scales: {x: {time: false}, y: {dir: -1}},
+      axes: [axis(`distance from the needle in ${this.unit}`, {size: 34, values: fitting.values}), axis(null, fitting)],
+      series: [{label: 'distance', value}, ...series],
+      cursor: {drag: {x: true, y: true}},
+      padding: [8, 12, 0, 0],
+    }, uPlot.join(tables), this.holder);
   }
 }

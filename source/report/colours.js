@@ -4,6 +4,9 @@ const RISING = [[0, 0.16, 0.25, 0.55], [0.25, 0.2, 0.55, 0.7], [0.5, 0.75, 0.85,
 const AROUND = [[0, 0.13, 0.29, 0.6], [0.25, 0.45, 0.65, 0.85], [0.5, 0.9, 0.9, 0.88], [0.75, 0.93, 0.6, 0.42], [1, 0.65, 0.1, 0.15]];
 const MATERIALS = [[0, 0.36, 0.55, 0.66], [0.5, 0.85, 0.72, 0.5], [1, 0.62, 0.4, 0.45]];
 
+/** Of errors: least is best. */
+export const ERRORS = [[0, 0.1, 0.44, 0.3], [0.25, 0.5, 0.72, 0.5], [0.5, 0.96, 0.96, 0.92], [0.75, 0.98, 0.72, 0.42], [1, 0.68, 0.33, 0.05]];
+
 export const FIELDS = {
   displacement: {title: 'displacement', unit: 'm', map: RISING},
   volume_ratio: {title: 'volume ratio', unit: '', map: AROUND, middle: 1},

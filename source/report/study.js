@@ -3,26 +3,7 @@
 import {ErrorChart} from './charts.js';
 import {element} from './dom.js';
 import {digits} from './format.js';
-
-/** Rows of a CSV file whose fields may be quoted. */
-function parse(csv) {
-  const rows = [[]];
-  let field = '', quoted = false;
-  for (let i = 0; i < csv.length; ++i) {
-    const c = csv[i];
-    if (quoted) {
-      if (c === '"' && csv[i + 1] === '"') { field += '"'; ++i; }
-      else if (c === '"') quoted = false;
-      else field += c;
-    } else if (c === '"') quoted = true;
-    else if (c === ',' || c === '\n') {
-      rows.at(-1).push(field);
-      field = '';
-      if (c === '\n') rows.push([]);
-    } else field += c;
-  }
-  return rows.filter((row) => row.length > 1);
-}
+import {sortableTable} from './tables.js';
 
 function cell(name, text) {
   if (name.startsWith('error') && text !== '' && Number.isFinite(Number(text))) return `${digits(100 * Number(text), 3)} %`;
@@ -30,24 +11,7 @@ function cell(name, text) {
   return text !== '' && Number.isFinite(Number(text)) ? digits(Number(text), 4) : text.replace(/^(nan|-nan)$/, '');
 }
 
-/** Columns where something stands. A click on a title sorts by it. */
-function table(csv) {
-  const [names, ...rows] = parse(csv);
-  const kept = names.map((_, c) => c).filter((c) => rows.some((row) => !['', 'nan', '-nan'].includes(row[c])));
-  const body = element('tbody');
-  const fill = (list) => body.replaceChildren(...list.map((row) => element('tr', {class: /^(failed|refused)/.test(row.at(-1)) ? 'bad' : ''},
-    kept.map((c) => element('td', {class: Number.isFinite(Number(row[c] || 'x')) ? 'number' : ''}, cell(names[c], row[c]))))));
-  let sorted = null;
-  const sort = (c) => {
-    sorted = sorted === c ? null : c;
-    const compare = (a, b) => (Number(a[c]) - Number(b[c])) || a[c].localeCompare(b[c]);
-    fill(sorted === null ? rows : [...rows].sort(compare));
-  };
-  fill(rows);
-  return element('div', {class: 'wide'}, element('table', {class: 'study'},
-    element('thead', {}, element('tr', {}, kept.map((c) => element('th', {scope: 'col'},
-      element('button', {type: 'button', title: 'Sort; once more: as they were run', onclick: () => sort(c)}, names[c].replaceAll('_', ' ')))))), body));
-}
+const bad = (row) => /^(failed|refused)/.test(row.at(-1));
 
 export function showStudy(data, page) {
   document.title = `Study ${data.name} – Supple`;
@@ -58,7 +22,7 @@ export function showStudy(data, page) {
   page.replaceChildren(element('header', {}, element('h1', {}, data.name, element('span', {class: 'state'}, 'study'))),
     element('ul', {class: 'study-facts'}, data.facts.map((fact) => element('li', {}, fact.replaceAll('`', '')))),
     element('div', {class: 'columns even'}, charts.map((chart) => chart.root)), soonest,
-    element('section', {}, element('h2', {}, 'Runs'), table(data.csv)),
+    element('section', {}, element('h2', {}, 'Runs'), sortableTable(data.csv, cell, bad)),
     element('section', {class: 'about'}, element('p', {}, '★: no other run is both better and quicker. Order: observed, from the row before of the same series.'),
       element('p', {}, `Written by Supple ${data.version}. It needs no network.`)));
   charts.filter((chart) => chart.rows.length > 0).forEach((chart) => chart.draw());
