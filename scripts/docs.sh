@@ -4,11 +4,7 @@
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 install_missing docs
-supple=${SUPPLE:-$root/build/supple}
-if [ -z "${SUPPLE:-}" ]; then
-  install_missing run
-  build "$root/build"
-fi
+find_supple
 cd "$root"
 mkdir -p build/doc
 
