@@ -58,7 +58,8 @@ def functions(path):
 
 
 def guard_problems(path):
-    guard = f"supple_{path.stem}_h"
+    place = "tests_" if "tests" in path.parts else ""
+    guard = f"supple_{place}{path.stem}_h"
     if path.suffix == ".h" and not path.read_text().startswith(f"#ifndef {guard}\n#define {guard}\n"):
         yield f"1: the include guard is not {guard}"
 
