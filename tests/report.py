@@ -169,6 +169,10 @@ table = Page(runner.Results(folder / "study")).data
 runner.check(table["kind"] == "study" and len(table["rows"]) == 5 and all(row["error"] > 0 for row in table["rows"]), f"{table}")
 runner.check(not list((folder / "study").glob("runs/*/report.html")), "each run of a study has a report")
 
+# Cells that turn inside out.
+beaten = runner.simulate(runner.BAR, {"Start/Velocity": "0; 0; -400", "Time/Steps": 5})
+runner.check(beaten.summary()["extremes"]["most_inverted"] > 0, "no cell is inside out")
+
 # An identification: a page of all its pairs and the best surfaces.
 status, _, error = runner.run(runner.ROOT / "parameters" / "skin" / "tables-3.3.prm", "--quiet", "--output", folder / "identification",
                               "--set", "Identification/Thicknesses=0.75, 1.5", "--set", "Identification/Elasticity ratios=3, 7, 15")
@@ -279,6 +283,10 @@ with chromium.Chromium() as browser:
     opens(browser, still.folder / "report.html", "without history", **SMALLER)
     opens(browser, late.file, "from a later instant on", **SMALLER)
     runner.check("gone on with" in browser.evaluate("document.querySelector('.about').textContent"), "the page does not say where it begins")
+
+    opens(browser, beaten.folder / "report.html", "inverted", **SMALLER)
+    told = browser.evaluate("document.querySelector('.notice.warn')?.textContent ?? ''")
+    runner.check("inside out" in told or "inverted" in told, f"cells inside out are not on top: {told}")
 
     opens(browser, folder / "study" / "report.html", "study", **SMALLER)
     runner.check(browser.evaluate("document.querySelectorAll('.chart canvas').length") == 2, "the plots of a study")

@@ -202,7 +202,7 @@ export class BodyView {
   paint() {
     const {corners, materials} = this.surface;
     const value = this.cornerValue();
-    let range = this.field === 'material' ? [materials[0], materials.at(-1)] : this.surface.range[this.field];
+    let range = this.field === 'material' ? [materials[0], materials.at(-1)] : this.surface.coloured[this.field];
     if (this.ofInstant && this.field !== 'material') {
       range = [Infinity, -Infinity];
       for (let c = 0; c < corners.length; ++c) range = [Math.min(range[0], value(c)), Math.max(range[1], value(c))];

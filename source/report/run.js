@@ -11,8 +11,9 @@ import {Surface} from './surface.js';
 const ENERGIES = ['kinetic', 'elastic', 'potential', 'dissipated', 'work', 'total'];
 
 /** What went wrong and what to know, before all else. */
-function notices({status, warnings}) {
-  const list = [];
+function notices({status, warnings: told, extremes}) {
+  const list = [], inverted = extremes?.most_inverted ?? 0;
+  const warnings = inverted > 0 && !told.some((text) => /inside out|inverted/.test(text)) ? [...told, `Up to ${count(inverted, 'cell')} at once ${inverted === 1 ? 'was' : 'were'} inside out (volume ratio ${digits(extremes.min_volume_ratio, 3)}): do not trust the motion there.`] : told;
   if (status !== 'done') {
     const failed = status.startsWith('failed');
     const text = failed ? status.replace(/^failed: /, '') : 'The run was interrupted. What is shown ends there.';

@@ -82,7 +82,8 @@ export class Stage {
     this.title.textContent = title + (symbol ? ` in ${symbol}` : '');
     this.bar.style.background = gradient(map);
     const ends = this.view.field === 'material' ? this.surface.materials : [0, 0.25, 0.5, 0.75, 1].map((x) => low + x * (high - low));
-    this.ends.replaceChildren(...ends.map((value) => element('span', {}, digits(value / size, 3))));
+    const above = high < this.surface.range[this.view.field]?.[1] && !this.view.ofInstant ? '≥ ' : '';
+    this.ends.replaceChildren(...ends.map((value, i) => element('span', {}, (i === ends.length - 1 ? above : '') + digits(value / size, 3))));
     this.note.hidden = this.view.enlarged === 1;
     this.note.textContent = `drawn with ${digits(this.view.enlarged)} times the displacement`;
   }
@@ -115,6 +116,8 @@ export class Stage {
     sentences.push(times.length < written
       ? `${count(times.length, 'frame')} of the ${digits(written)} that were written are in this page; all are in solution.pvd.`
       : `All ${count(written, 'frame')} that were written are in this page; between them the picture is interpolated.`);
+    const {von_mises_stress: [, most]} = this.surface.range, {von_mises_stress: [, shown]} = this.surface.coloured;
+    if (shown < most) sentences.push(`A hundredth of the surface has von Mises stresses of ${quantity(shown, 'Pa', 3)} to ${quantity(most, 'Pa', 3)}, all in the last colour, so that the rest is seen.`);
     sentences.push('Displacements, volume ratios and stresses have 16 bits here: 1/65000 of their range. The files have all digits.');
     return sentences;
   }

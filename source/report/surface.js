@@ -53,6 +53,31 @@ export class Surface {
       if (length > this.farthest) [this.farthest, this.farthestFrame] = [length, number];
     });
     this.range.displacement = [0, this.farthest];
+    this.coloured = {...this.range, von_mises_stress: this.commonStresses()};
+  }
+
+  /** The area of a triangle at rest. */
+  area(c) {
+    const [p, q, r] = [0, 1, 2].map((i) => this.rest.subarray(3 * this.corners[3 * c + i], 3 * this.corners[3 * c + i] + 3));
+    const u = [0, 1, 2].map((d) => q[d] - p[d]), v = [0, 1, 2].map((d) => r[d] - p[d]);
+    return Math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2;
+  }
+
+  /** The range of the stresses but for those far above all others on a hundredth of the surface: at a needle or a corner
+   * these would leave no colours for the rest. */
+  commonStresses() {
+    const [low, high] = this.range.von_mises_stress;
+    const areas = Float64Array.from({length: this.corners.length / 3}, (_, c) => this.area(c));
+    const all = areas.reduce((sum, area) => sum + area, 0);
+    let most = 0;
+    for (const {von_mises_stress: values} of this.frames) {
+      const order = Uint32Array.from(areas.keys()).sort((a, b) => values[b] - values[a]);
+      let above = 0, i = 0;
+      while (i < order.length - 1 && above + areas[order[i]] < 0.01 * all) above += areas[order[i++]];
+      most = Math.max(most, values[order[i]]);
+    }
+    const common = low + (high - low) * most / 65535;
+    return most > 0 && common < 0.5 * high ? [low, common] : [low, high];
   }
 
   /** The box of all frames with so many times the displacement. */
