@@ -85,6 +85,37 @@ namespace Supple
         }
       return found_lines;
     }
+
+
+    constexpr std::size_t longest_line = 4000;
+
+    /** Regular expressions, here and in deal.II, call themselves for each letter: a line that is
+     * too long for them ends the program.
+     * @param place of the line */
+    void
+    require_short_line(const std::size_t length, const std::string &place)
+    {
+      if (length > longest_line)
+        throw InputError(place + ": this line has " + std::to_string(length) +
+                         " characters; at most " + std::to_string(longest_line) + " are read.");
+    }
+
+
+    /** A line that ends with a backslash goes on in the next one. */
+    void
+    require_short_lines(const std::string &file, const std::string &text)
+    {
+      std::istringstream lines(text);
+      std::string line;
+      std::size_t length = 0;
+      for (unsigned int number = 1; std::getline(lines, line); ++number)
+        {
+          length += line.size();
+          require_short_line(length, file + ":" + std::to_string(number));
+          if (line.empty() || line.back() != '\\')
+            length = 0;
+        }
+    }
   } // namespace
 
 
@@ -100,6 +131,7 @@ namespace Supple
     text = content.str();
     if (dealii::Utilities::trim(text).empty())
       throw InputError(file + ": this parameter file is empty.");
+    require_short_lines(file, text);
   }
 
 
@@ -144,10 +176,11 @@ namespace Supple
   ParameterFile::apply(ParameterHandler &prm, const Override &override)
   {
     const std::string &text = override.text;
-    const bool in_a_file    = override.place.find(':') != std::string::npos;
-    const std::string here  = override.place + (in_a_file ? ": \"" : " \"") + text + "\"";
-    const auto equal        = text.find('=');
-    const auto slash        = text.find('/');
+    require_short_line(text.size(), override.place);
+    const bool in_a_file   = override.place.find(':') != std::string::npos;
+    const std::string here = override.place + (in_a_file ? ": \"" : " \"") + text + "\"";
+    const auto equal       = text.find('=');
+    const auto slash       = text.find('/');
     if (equal == std::string::npos || slash == std::string::npos || slash > equal)
       throw InputError(here + ": no section, entry or value found. What is right is " +
                        "\"Section/Entry=value\", such as \"Time/Steps=10\".");

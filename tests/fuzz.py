@@ -1,16 +1,20 @@
 """Damaged parameter files, meshes and measurements: supple --check ends with exit status 0 or 1, with a message, soon.
 
-fuzz.py SUPPLE [--part parameters|meshes|measurements] [--count N | --minutes N] [--seed N] [--only N] [--keep FOLDER]
+fuzz.py SUPPLE [--driver SUPPLE_CHECK] [--part parameters|meshes|measurements] [--count N | --minutes N] [--seed N]
+        [--only N] [--keep FOLDER]
 
-The same seed gives the same mutants; --only N repeats one. What fails is kept in the folder, or else a temporary one.
+The same seed gives the same mutants; --only N repeats one. The driver is quicker, for it starts once. What fails is kept
+in the folder, or else in a temporary one.
 """
 
 import argparse
+import os
 import pathlib
 import random
 import re
 import resource
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -18,9 +22,10 @@ import time
 
 import runner
 
-# A check takes .1 s on a machine of its own. Sanitizers and busy machines are slower by ten times and more.
-LIMIT = 60
+# A check takes .3 s of computing, with sanitizers some seconds. On a busy machine the clock says little.
+SECONDS = 30
 MEMORY = 8 * 2**30
+LONGEST_MESSAGE = 6000
 PARTS = ("parameters", "meshes", "measurements")
 
 # These studies look through many or large scenes.
@@ -237,30 +242,56 @@ class Corpus:
         return scene, target
 
 
-def complaint(scene, sanitized):
-    """What is wrong with what supple says of this scene, or nothing."""
-    def limit():
-        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-        if not sanitized:    # these take terabytes of addresses for themselves
+class Checker:
+    """Runs supple --check: the program itself, or its driver, which starts once."""
+
+    def __init__(self, driver, folder):
+        self.sanitized = b"__asan_init" in pathlib.Path(runner.SUPPLE).read_bytes()
+        self.driver = driver
+        self.errors = folder / "stderr"
+        self.server = None
+
+    def limit_memory(self):
+        if not self.sanitized:    # these take terabytes of addresses for themselves
             resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
 
-    try:
+    def limit(self):
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
+        self.limit_memory()
+
+    def by_program(self, scene):
+        """Exit status, or the negative signal, and standard error."""
         done = subprocess.run([runner.SUPPLE, "--check", scene.name], cwd=scene.parent, env=runner.ENVIRONMENT, capture_output=True,
-                              timeout=LIMIT, stdin=subprocess.DEVNULL, preexec_fn=limit)
-    except subprocess.TimeoutExpired:
-        return f"no end in {LIMIT} s"
-    error = done.stderr.decode(errors="replace")
-    if REPORT.search(error):
-        return "report of a sanitizer\n" + error[:4000]
-    if done.returncode not in (0, 1):
-        return f"exit status {done.returncode}\n{error[:2000]}"
-    if done.returncode == 1 and not re.match(r"supple: \S", error):
-        return "exit status 1 without a message\n" + error[:2000]
-    if done.returncode == 1 and RAW.search(error):
-        return "the message is not in words\n" + error[:2000]
-    if done.returncode == 1 and len(error) > 4000:
-        return f"the message has {len(error)} letters\n{error[:300]}"
-    return None
+                              stdin=subprocess.DEVNULL, preexec_fn=self.limit)
+        return done.returncode, done.stderr
+
+    def by_driver(self, scene):
+        if not self.server:
+            self.server = subprocess.Popen([self.driver, str(SECONDS)], env=runner.ENVIRONMENT, stdin=subprocess.PIPE,
+                                           stdout=subprocess.PIPE, text=True, preexec_fn=self.limit_memory)
+        self.errors.write_bytes(b"")
+        self.server.stdin.write(f"{scene.parent}\t{scene.name}\t{self.errors}\n")
+        self.server.stdin.flush()
+        return os.waitstatus_to_exitcode(int(self.server.stdout.readline())), self.errors.read_bytes()
+
+    def complaint(self, scene):
+        """What is wrong with what supple says of this scene, or nothing."""
+        status, error = self.by_driver(scene) if self.driver else self.by_program(scene)
+        error = error.decode(errors="replace")
+        if REPORT.search(error):
+            return "report of a sanitizer\n" + error[:4000]
+        if status in (-signal.SIGKILL, -signal.SIGXCPU):
+            return f"no end in {SECONDS} s of computing"
+        if status not in (0, 1):
+            return f"exit status {status}\n{error[:2000]}"
+        if status == 1 and not re.match(r"supple: \S", error):
+            return "exit status 1 without a message\n" + error[:2000]
+        if status == 1 and RAW.search(error):
+            return "the message is not in words\n" + error[:2000]
+        if status == 1 and len(error) > LONGEST_MESSAGE:
+            return f"the message has {len(error)} letters\n{error[:300]}"
+        return None
 
 
 def main():
@@ -271,11 +302,12 @@ def main():
     parser.add_argument("--minutes", type=float)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", type=int)
+    parser.add_argument("--driver")
     parser.add_argument("--keep", type=pathlib.Path)
     options = parser.parse_args()
 
-    sanitized = b"__asan_init" in pathlib.Path(runner.SUPPLE).read_bytes()
     corpus = Corpus(pathlib.Path(tempfile.mkdtemp(prefix="supple-fuzz-")))
+    checker = Checker(options.driver, corpus.folder)
     kept = options.keep or pathlib.Path(tempfile.mkdtemp(prefix="supple-fuzz-failed-"))
     kept.mkdir(parents=True, exist_ok=True)
     parts = [options.part] if options.part else list(PARTS)
@@ -284,7 +316,7 @@ def main():
     while True:
         for part in parts:
             scene, target = corpus.mutant(part, options.seed, number)
-            wrong = complaint(scene, sanitized)
+            wrong = checker.complaint(scene)
             tried += 1
             if wrong:
                 failed += 1
@@ -293,6 +325,8 @@ def main():
                 copy.with_name(copy.name + ".txt").write_text(f"{target.parent.name}\n{wrong}\n")
                 print(f"{part}, seed {options.seed}, number {number} ({target.parent.name}, kept as {copy}): {wrong}", flush=True)
         number += 1
+        if options.minutes and number % 1000 == 0:
+            print(f"{tried} mutants in {time.monotonic() - started:.0f} s", flush=True)
         enough = time.monotonic() - started > 60 * options.minutes if options.minutes else number >= options.count
         if enough or options.only is not None:
             break
