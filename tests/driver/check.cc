@@ -4,6 +4,7 @@
 // by a copy of this process, whose standard error goes to the file; prints the copy's status as
 // waitpid gives it. Each copy may compute for as many seconds as the first argument says.
 
+#include <supple/command_line.h>
 #include <supple/error.h>
 #include <supple/identification.h>
 #include <supple/simulation.h>
@@ -49,12 +50,12 @@ namespace
       }
     catch (const InputError &error)
       {
-        std::cerr << "supple: " << error.what() << std::endl;
+        std::cerr << "supple: " << on_one_screen(error.what()) << std::endl;
         return 1;
       }
     catch (const std::exception &error)
       {
-        std::cerr << "supple: " << error.what() << std::endl;
+        std::cerr << "supple: " << on_one_screen(error.what()) << std::endl;
         return 2;
       }
   }
