@@ -1,7 +1,7 @@
 """Damaged parameter files, meshes and measurements: supple --check ends with exit status 0 or 1, with a message, soon.
 
 fuzz.py SUPPLE [--driver SUPPLE_CHECK] [--part parameters|meshes|measurements] [--count N | --minutes N] [--seed N]
-        [--only N] [--keep FOLDER]
+        [--only N] [--keep FOLDER] [--messages FILE]
 
 The same seed gives the same mutants; --only N repeats one. The driver is quicker, for it starts once. What fails is kept
 in the folder, or else in a temporary one.
@@ -245,11 +245,13 @@ class Corpus:
 class Checker:
     """Runs supple --check: the program itself, or its driver, which starts once."""
 
-    def __init__(self, driver, folder):
+    def __init__(self, driver, folder, messages):
         self.sanitized = b"__asan_init" in pathlib.Path(runner.SUPPLE).read_bytes()
         self.driver = driver
         self.errors = folder / "stderr"
         self.server = None
+        self.messages = open(messages or os.devnull, "w")
+        self.refused = 0
 
     def limit_memory(self):
         if not self.sanitized:    # these take terabytes of addresses for themselves
@@ -279,6 +281,8 @@ class Checker:
         """What is wrong with what supple says of this scene, or nothing."""
         status, error = self.by_driver(scene) if self.driver else self.by_program(scene)
         error = error.decode(errors="replace")
+        self.messages.write(error)
+        self.refused += status == 1
         if REPORT.search(error):
             return "report of a sanitizer\n" + error[:4000]
         if status in (-signal.SIGKILL, -signal.SIGXCPU):
@@ -304,10 +308,11 @@ def main():
     parser.add_argument("--only", type=int)
     parser.add_argument("--driver")
     parser.add_argument("--keep", type=pathlib.Path)
+    parser.add_argument("--messages", type=pathlib.Path, help="file for all messages, to be read")
     options = parser.parse_args()
 
     corpus = Corpus(pathlib.Path(tempfile.mkdtemp(prefix="supple-fuzz-")))
-    checker = Checker(options.driver, corpus.folder)
+    checker = Checker(options.driver, corpus.folder, options.messages)
     kept = options.keep or pathlib.Path(tempfile.mkdtemp(prefix="supple-fuzz-failed-"))
     kept.mkdir(parents=True, exist_ok=True)
     parts = [options.part] if options.part else list(PARTS)
@@ -330,7 +335,7 @@ def main():
         enough = time.monotonic() - started > 60 * options.minutes if options.minutes else number >= options.count
         if enough or options.only is not None:
             break
-    print(f"{tried} mutants in {time.monotonic() - started:.0f} s, {failed} failed")
+    print(f"{tried} mutants in {time.monotonic() - started:.0f} s: {checker.refused} refused, {failed} failed")
     shutil.rmtree(corpus.folder)
     sys.exit(failed > 0)
 

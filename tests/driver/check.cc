@@ -25,17 +25,23 @@ using namespace Supple;
 
 namespace
 {
+  template <typename Task, typename TaskParameters>
+  void
+  check_task(const std::string &scene)
+  {
+    Task(TaskParameters::read(scene, {}), "output", false, MPI_COMM_WORLD).check();
+  }
+
+
   void
   check_scene(const std::string &scene)
   {
     if (StudyParameters::is_study(scene))
-      Study(StudyParameters::read(scene, {}), "output", false, MPI_COMM_WORLD).check();
+      check_task<Study, StudyParameters>(scene);
     else if (IdentificationParameters::is_identification(scene))
-      Identification(IdentificationParameters::read(scene, {}), "output", false, MPI_COMM_WORLD)
-        .check();
+      check_task<Identification, IdentificationParameters>(scene);
     else
-      Simulation(Parameters::read(scene, {}), "output", false, MPI_COMM_WORLD)
-        .print_description(true);
+      check_task<Simulation, Parameters>(scene);
   }
 
 
