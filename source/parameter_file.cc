@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
 
 namespace Supple
@@ -101,19 +102,48 @@ namespace Supple
     }
 
 
-    /** A line that ends with a backslash goes on in the next one. */
+    std::string
+    content_of(const std::string &file, const std::string &message)
+    {
+      std::ifstream stream(file);
+      if (!stream || !std::filesystem::is_regular_file(file))
+        throw InputError(message);
+      std::stringstream content;
+      content << stream.rdbuf();
+      return content.str();
+    }
+
+
+    /** Refuses what deal.II can't read without an end of the program: long lines, of which one that
+     * ends with a backslash goes on in the next one, and files that include themselves.
+     * @param including the files that include this one, and this one */
     void
-    require_short_lines(const std::string &file, const std::string &text)
+    require_readable(const std::string &file,
+                     const std::string &text,
+                     const std::set<std::string> &including)
     {
       std::istringstream lines(text);
       std::string line;
       std::size_t length = 0;
       for (unsigned int number = 1; std::getline(lines, line); ++number)
         {
+          const std::string place = file + ":" + std::to_string(number);
           length += line.size();
-          require_short_line(length, file + ":" + std::to_string(number));
+          require_short_line(length, place);
           if (line.empty() || line.back() != '\\')
             length = 0;
+
+          const std::string trimmed = dealii::Utilities::trim(line);
+          if (trimmed.rfind("include ", 0) != 0 && trimmed.rfind("INCLUDE ", 0) != 0)
+            continue;
+          const std::string next =
+            dealii::Utilities::trim(trimmed.substr(8, trimmed.find('#') - 8));
+          const std::string included =
+            content_of(next, place + ": there is no file " + next + ", or it can't be read.");
+          auto chain = including;
+          if (!chain.insert(std::filesystem::canonical(next)).second)
+            throw InputError(place + ": " + next + " includes itself.");
+          require_readable(next, included, chain);
         }
     }
   } // namespace
@@ -123,15 +153,10 @@ namespace Supple
     : file(file)
   {
     // parse_input() makes the file if it is not there
-    std::ifstream stream(file);
-    if (!stream || !std::filesystem::is_regular_file(file))
-      throw InputError(file + ": there is no such parameter file, or it can't be read.");
-    std::stringstream content;
-    content << stream.rdbuf();
-    text = content.str();
+    text = content_of(file, file + ": there is no such parameter file, or it can't be read.");
     if (dealii::Utilities::trim(text).empty())
       throw InputError(file + ": this parameter file is empty.");
-    require_short_lines(file, text);
+    require_readable(file, text, {std::filesystem::canonical(file)});
   }
 
 
