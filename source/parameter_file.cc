@@ -6,6 +6,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -123,17 +124,20 @@ namespace Supple
                      const std::set<std::string> &including)
     {
       std::istringstream lines(text);
-      std::string line;
-      std::size_t length = 0;
+      std::string line, joined;
       for (unsigned int number = 1; std::getline(lines, line); ++number)
         {
           const std::string place = file + ":" + std::to_string(number);
-          length += line.size();
-          require_short_line(length, place);
-          if (line.empty() || line.back() != '\\')
-            length = 0;
-
-          const std::string trimmed = dealii::Utilities::trim(line);
+          joined += line;
+          require_short_line(joined.size(), place);
+          if (!line.empty() && line.back() == '\\')
+            {
+              joined.pop_back();
+              continue;
+            }
+          std::replace(joined.begin(), joined.end(), '\t', ' ');
+          const std::string trimmed = dealii::Utilities::trim(joined);
+          joined.clear();
           if (trimmed.rfind("include ", 0) != 0 && trimmed.rfind("INCLUDE ", 0) != 0)
             continue;
           const std::string next =
