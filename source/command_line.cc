@@ -2,6 +2,9 @@
 
 #include <supple/error.h>
 
+#include <algorithm>
+#include <sstream>
+
 namespace Supple
 {
   std::string
@@ -76,5 +79,26 @@ namespace Supple
     if (needs_scene && line.scene.empty())
       throw InputError("A scene is missing.\n\n" + help());
     return line;
+  }
+
+
+  std::string
+  on_one_screen(const std::string &message)
+  {
+    constexpr std::size_t most = 1000, head = 600, tail = 300;
+    std::istringstream lines(message);
+    std::string text, line;
+    while (std::getline(lines, line))
+      {
+        if (line.size() > most)
+          line = line.substr(0, head) + " ... " + line.substr(line.size() - tail);
+        std::replace_if(
+          line.begin(),
+          line.end(),
+          [](const unsigned char letter) { return letter < ' ' || letter == 127; },
+          '?');
+        text += (text.empty() ? "" : "\n") + line;
+      }
+    return text;
   }
 } // namespace Supple

@@ -80,12 +80,12 @@ main(int argc, char **argv)
   const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   const auto fail = [root](const std::exception &exception, const int exit_status) {
     if (root)
-      std::cerr << "supple: " << exception.what() << std::endl;
+      std::cerr << "supple: " << Supple::on_one_screen(exception.what()) << std::endl;
     return exit_status;
   };
   // Perhaps on this process alone: the others must not wait for it.
   const auto abandon = [](const std::string &message) {
-    std::cerr << "supple: " << message << std::endl;
+    std::cerr << "supple: " << Supple::on_one_screen(message) << std::endl;
     if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
       MPI_Abort(MPI_COMM_WORLD, 2);
     return 2;

@@ -1,15 +1,42 @@
 #include <supple/error.h>
 #include <supple/mesh_format.h>
+#include <supple/separate_process.h>
 #include <supple/serial_mesh.h>
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/vector.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <gmsh.h>
 #include <map>
 #include <numeric>
+#include <sstream>
+
+namespace boost::serialization
+{
+  template <typename Archive>
+  void
+  serialize(Archive &archive, Supple::SerialMesh::BoundaryFace &face, const unsigned int)
+  {
+    archive &face.vertices &face.boundary_id;
+  }
+
+
+  template <typename Archive>
+  void
+  serialize(Archive &archive, Supple::SerialMesh &mesh, const unsigned int)
+  {
+    archive &mesh.dimension &mesh.vertices &mesh.cells &mesh.materials &mesh.boundary;
+  }
+} // namespace boost::serialization
+
 
 namespace Supple
 {
@@ -118,6 +145,19 @@ namespace Supple
     }
 
 
+    /** The place of a node in the list of nodes.
+     * @throws InputError if an element names a node that is not there */
+    std::size_t
+    position_of(const std::size_t node, const std::map<std::size_t, std::size_t> &position)
+    {
+      const auto found = position.find(node);
+      if (found == position.end())
+        throw InputError("an element has the node " + std::to_string(node) +
+                         ", which is not in the file.");
+      return found->second;
+    }
+
+
     /** Vertices of all elements of a type on an entity, as positions in the list of nodes. */
     std::vector<std::size_t>
     elements(const int type, const int entity, const std::map<std::size_t, std::size_t> &position)
@@ -125,7 +165,7 @@ namespace Supple
       std::vector<std::size_t> element_tags, node_tags, positions;
       gmsh::model::mesh::getElementsByType(type, element_tags, node_tags, entity);
       for (const std::size_t tag : node_tags)
-        positions.push_back(position.at(tag));
+        positions.push_back(position_of(tag, position));
       return positions;
     }
 
@@ -193,7 +233,7 @@ namespace Supple
           std::array<unsigned int, 4> cell;
           cell.fill(dealii::numbers::invalid_unsigned_int);
           for (unsigned int a = 0; a < n_nodes; ++a)
-            cell[a] = position.at(nodes[n_nodes * c + a]);
+            cell[a] = position_of(nodes[n_nodes * c + a], position);
           mesh.cells.push_back(cell);
           const auto found = material.find(tags[c]);
           mesh.materials.push_back(found == material.end() ? 0 : found->second);
@@ -287,6 +327,43 @@ namespace Supple
                          " can be read. Each element needs a number of its own; meshio convert "
                          "(package meshio-tools) numbers them anew.");
     }
+
+
+    SerialMesh
+    read_by_gmsh(const std::string &file)
+    {
+      const GmshSession session(file);
+
+      require_all_elements(file);
+
+      SerialMesh mesh;
+      const auto position = read_vertices(mesh);
+      if (!has_elements(gmsh_tetrahedron))
+        {
+          refuse_other_cells(mesh);
+          mesh.dimension = 2;
+          refuse_other_cells(mesh);
+          if (!has_elements(gmsh_triangle) || !is_flat(mesh))
+            refuse_without_cells(mesh);
+          for (auto &vertex : mesh.vertices)
+            vertex[2] = 0.;
+        }
+      else
+        refuse_other_cells(mesh);
+      read_cells(mesh, position);
+      read_boundary(mesh, position);
+      return mesh;
+    }
+
+
+    /** A good mesh is read at megabytes a second, and takes less than fifty times its size. */
+    ProcessLimits
+    limits_for(const std::string &file)
+    {
+      const std::size_t size         = std::filesystem::file_size(file);
+      constexpr std::size_t megabyte = 1000000;
+      return {static_cast<unsigned int>(30 + 10 * (size / megabyte)), 1000 * megabyte + 200 * size};
+    }
   } // namespace
 
 
@@ -296,31 +373,28 @@ namespace Supple
     try
       {
         require_readable_format(file);
-        const GmshSession session(file);
-
-        require_all_elements(file);
-
+        // Gmsh crashes on some damaged files.
+        const std::string packed = in_separate_process(
+          [&] {
+            std::ostringstream stream;
+            boost::archive::binary_oarchive(stream) << read_by_gmsh(file);
+            return stream.str();
+          },
+          limits_for(file));
+        std::istringstream stream(packed);
         SerialMesh mesh;
-        const auto position = read_vertices(mesh);
-        if (!has_elements(gmsh_tetrahedron))
-          {
-            refuse_other_cells(mesh);
-            mesh.dimension = 2;
-            refuse_other_cells(mesh);
-            if (!has_elements(gmsh_triangle) || !is_flat(mesh))
-              refuse_without_cells(mesh);
-            for (auto &vertex : mesh.vertices)
-              vertex[2] = 0.;
-          }
-        else
-          refuse_other_cells(mesh);
-        read_cells(mesh, position);
-        read_boundary(mesh, position);
+        boost::archive::binary_iarchive(stream) >> mesh;
         return mesh;
       }
     catch (const InputError &error)
       {
         throw InputError(origin + ": " + error.what());
+      }
+    catch (const SeparateProcessError &error)
+      {
+        throw InputError(origin +
+                         ": the file is damaged, or no mesh: Gmsh's library fails on it (" +
+                         error.what() + ").");
       }
   }
 } // namespace Supple

@@ -6,9 +6,11 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
 
 namespace Supple
@@ -85,6 +87,69 @@ namespace Supple
         }
       return found_lines;
     }
+
+
+    constexpr std::size_t longest_line = 4000;
+
+    /** Regular expressions, here and in deal.II, call themselves for each letter: a line that is
+     * too long for them ends the program.
+     * @param place of the line */
+    void
+    require_short_line(const std::size_t length, const std::string &place)
+    {
+      if (length > longest_line)
+        throw InputError(place + ": this line has " + std::to_string(length) +
+                         " characters; at most " + std::to_string(longest_line) + " are read.");
+    }
+
+
+    std::string
+    content_of(const std::string &file, const std::string &message)
+    {
+      std::ifstream stream(file);
+      if (!stream || !std::filesystem::is_regular_file(file))
+        throw InputError(message);
+      std::stringstream content;
+      content << stream.rdbuf();
+      return content.str();
+    }
+
+
+    /** Refuses what deal.II can't read without an end of the program: long lines, of which one that
+     * ends with a backslash goes on in the next one, and files that include themselves.
+     * @param including the files that include this one, and this one */
+    void
+    require_readable(const std::string &file,
+                     const std::string &text,
+                     const std::set<std::string> &including)
+    {
+      std::istringstream lines(text);
+      std::string line, joined;
+      for (unsigned int number = 1; std::getline(lines, line); ++number)
+        {
+          const std::string place = file + ":" + std::to_string(number);
+          joined += line;
+          require_short_line(joined.size(), place);
+          if (!line.empty() && line.back() == '\\')
+            {
+              joined.pop_back();
+              continue;
+            }
+          std::replace(joined.begin(), joined.end(), '\t', ' ');
+          const std::string trimmed = dealii::Utilities::trim(joined);
+          joined.clear();
+          if (trimmed.rfind("include ", 0) != 0 && trimmed.rfind("INCLUDE ", 0) != 0)
+            continue;
+          const std::string next =
+            dealii::Utilities::trim(trimmed.substr(8, trimmed.find('#') - 8));
+          const std::string included =
+            content_of(next, place + ": there is no file " + next + ", or it can't be read.");
+          auto chain = including;
+          if (!chain.insert(std::filesystem::canonical(next)).second)
+            throw InputError(place + ": " + next + " includes itself.");
+          require_readable(next, included, chain);
+        }
+    }
   } // namespace
 
 
@@ -92,14 +157,10 @@ namespace Supple
     : file(file)
   {
     // parse_input() makes the file if it is not there
-    std::ifstream stream(file);
-    if (!stream || !std::filesystem::is_regular_file(file))
-      throw InputError(file + ": there is no such parameter file, or it can't be read.");
-    std::stringstream content;
-    content << stream.rdbuf();
-    text = content.str();
+    text = content_of(file, file + ": there is no such parameter file, or it can't be read.");
     if (dealii::Utilities::trim(text).empty())
       throw InputError(file + ": this parameter file is empty.");
+    require_readable(file, text, {std::filesystem::canonical(file)});
   }
 
 
@@ -144,10 +205,11 @@ namespace Supple
   ParameterFile::apply(ParameterHandler &prm, const Override &override)
   {
     const std::string &text = override.text;
-    const bool in_a_file    = override.place.find(':') != std::string::npos;
-    const std::string here  = override.place + (in_a_file ? ": \"" : " \"") + text + "\"";
-    const auto equal        = text.find('=');
-    const auto slash        = text.find('/');
+    require_short_line(text.size(), override.place);
+    const bool in_a_file   = override.place.find(':') != std::string::npos;
+    const std::string here = override.place + (in_a_file ? ": \"" : " \"") + text + "\"";
+    const auto equal       = text.find('=');
+    const auto slash       = text.find('/');
     if (equal == std::string::npos || slash == std::string::npos || slash > equal)
       throw InputError(here + ": no section, entry or value found. What is right is " +
                        "\"Section/Entry=value\", such as \"Time/Steps=10\".");

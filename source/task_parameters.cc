@@ -1,3 +1,4 @@
+#include <supple/error.h>
 #include <supple/task_parameters.h>
 
 #include <deal.II/base/utilities.h>
@@ -67,6 +68,8 @@ namespace Supple
     std::vector<Override> list = override_list(overrides, place("Overrides"));
     list.insert(list.end(), command_line.begin(), command_line.end());
     list.insert(list.end(), more.begin(), more.end());
+    if (!std::filesystem::is_regular_file(path(scene)))
+      throw InputError(place("Scene") + ": there is no such parameter file: " + path(scene) + ".");
     return Parameters::read(path(scene), list);
   }
 

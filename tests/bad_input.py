@@ -116,3 +116,20 @@ with_setting("Mesh/Map", "x; y + t; z", "does not depend on t")
 with_setting("Mesh/Map", "abs(x - 1); y; z", "turns 96 of 192 cells inside out", "must not fold")
 refused([runner.BAR, "--set", "Mesh/Shape=rectangle", "--set", "Mesh/Map=x; y; 1", "--set", "Constraints/Boundaries held along z="],
         "plane z = 0")
+
+# Lines longer than any regular expression bears, in one piece or several; messages stay short and leave the terminal alone.
+for name, text in [("long", "set Map = " + "x" * 300000), ("continued", "set Map = " + ("x" * 99 + "\\\n") * 3000)]:
+    scene = folder / f"{name}.prm"
+    scene.write_text(f"subsection Mesh\n{text}\nend\n")
+    status, _, error = runner.run("--check", scene)
+    runner.check(status == 1 and "characters; at most 4000 are read" in error and f"{name}.prm:" in error, error[:1000])
+circle, other = folder / "circle.prm", folder / "other.prm"
+for first, second, words in [(circle, circle, "circle.prm includes itself"), (other, circle, "circle.prm includes itself"),
+                             (folder / "no-such", circle, "there is no file")]:
+    circle.write_text(f"subsection Time\nend\ninclude {first}\n")
+    other.write_text(f"include {second}\n")
+    status, _, error = runner.run("--check", circle)
+    runner.check(status == 1 and words in error, f"exit status {status}: {error}")
+with_setting("Mesh/Map", "x" * 100000, "characters; at most 4000 are read")
+status, _, error = runner.run("--check", runner.BAR, "--set", "Mesh/Map=\x1b[2J" + "x" * 3000)
+runner.check(status == 1 and "\x1b" not in error and "Mesh/Map = ?[2Jxxx" in error and " ... " in error and len(error) < 1500, error)

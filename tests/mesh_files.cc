@@ -1,10 +1,12 @@
 // A mesh written by Gmsh in each format it knows comes back with its cells, materials and
-// boundaries.
+// boundaries. What ends the process that reads it does not end this one.
 
 #include <supple/error.h>
 #include <supple/mesh_check.h>
+#include <supple/separate_process.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <gmsh.h>
 #include <map>
 
@@ -103,6 +105,47 @@ namespace
       std::printf(", boundary %u: %u", id, n);
     std::printf("\n");
   }
+
+
+  void
+  answer_of(const std::string &what,
+            const std::function<std::string()> &function,
+            const bool say_why = true)
+  {
+    const ProcessLimits limits{1, 200000000};
+    std::printf("%s: ", what.c_str());
+    try
+      {
+        std::printf("%zu bytes\n", in_separate_process(function, limits).size());
+      }
+    catch (const InputError &error)
+      {
+        std::printf("the input: %s\n", error.what());
+      }
+    catch (const SeparateProcessError &error)
+      {
+        std::printf("%s\n", say_why ? error.what() : "no answer");
+      }
+  }
+
+
+  void
+  end_badly()
+  {
+    answer_of("a megabyte", [] { return std::string(1000000, '\0'); });
+    answer_of("an error of ours", []() -> std::string { throw InputError("wrong"); });
+    answer_of("another error", []() -> std::string { throw std::out_of_range("map::at"); });
+    answer_of("a crash", []() -> std::string { std::abort(); });
+    answer_of("an early end", []() -> std::string { std::_Exit(0); });
+    answer_of("no end", []() -> std::string {
+      for (volatile bool forever = true; forever;)
+        ;
+      return "";
+    });
+    // A sanitizer ends the process in its own way.
+    answer_of(
+      "too much memory", [] { return std::string(500000000, ' '); }, false);
+  }
 } // namespace
 
 
@@ -119,4 +162,5 @@ main()
   write_and_read("ideas.unv", 0., false);
   write_and_read("medit.mesh", 0., false);
   write_and_read("nastran.bdf", 0., false);
+  end_badly();
 }

@@ -147,3 +147,11 @@ settings = {"Mesh/File": "good.msh", "Constraints/Clamped region": "", "Loads/Gr
             "Probes/Points": "a: 1, 1, 1"}
 fall = runner.simulate(scene, settings).probes()[-1]
 runner.check(abs(fall["a.uz"] + 10 * 0.01**2 * 55) < 1e-9, f"fallen by {fall['a.uz']} m")
+
+# A Gmsh that crashes on a damaged file does not take the program with it, on no process; another one may read it.
+damaged = bytearray((runner.DATA / "meshes" / "ideas.unv").read_bytes())
+damaged[1414:1419] = b"-9999"
+(folder / "damaged.unv").write_bytes(damaged)
+for ranks in (1, 2):
+    status, _, error = runner.run("--check", scene, "--set", "Mesh/File=damaged.unv", ranks=ranks)
+    runner.check(status == 0 or status == 1 and error.count("Mesh/File = damaged.unv: ") == 1, f"exit status {status}: {error}")

@@ -152,7 +152,7 @@ def refused(*words, line=True, **entries):
 
 
 refused("a study needs a scene", Scene="")
-refused("no such parameter file", Scene="no-such.prm", line=False)
+refused("no such parameter file", Scene="no-such.prm")
 refused("Study/Methods", "more than one", Cases="a []")
 refused("Study/Methods", "none of", Methods="")
 refused("Study/Methods", "neither", Reference="")

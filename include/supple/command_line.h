@@ -34,6 +34,14 @@ namespace Supple
     static std::string
     help();
   };
+
+
+  /** A message as it goes to the screen: the middle of lines with more than a thousand characters
+   * is left out, and what is no character of a text, such as the commands of a terminal, becomes
+   * '?'.
+   */
+  std::string
+  on_one_screen(const std::string &message);
 } // namespace Supple
 
 #endif
