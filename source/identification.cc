@@ -172,21 +172,7 @@ namespace Supple
                  lowest,
                  highest,
                  parameters.tolerance);
-      const auto near = [](const double value, const double bound) {
-        return std::abs(value / bound - 1.) < 1e-3;
-      };
-      const bool at_bounds = near(found.pair.thickness, lowest.thickness) ||
-                             near(found.pair.thickness, highest.thickness) ||
-                             near(found.pair.ratio, lowest.ratio) ||
-                             near(found.pair.ratio, highest.ratio);
-      const PairErrors errors = errors_of(found.pair, depths);
-      table.fits.push_back({of,
-                            found.pair,
-                            found.value,
-                            errors.needle_depths,
-                            found.lowest,
-                            found.highest,
-                            at_bounds});
+      table.fits.push_back({of, found});
     };
 
     for (std::size_t s = 0; s < sets.size(); ++s)

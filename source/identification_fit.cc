@@ -2,12 +2,14 @@
 #include <supple/identification_fit.h>
 
 #include <boost/math/tools/minima.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 
 #include <nlopt.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <tuple>
 
 namespace Supple
 {
@@ -92,32 +94,63 @@ namespace Supple
     }
 
 
+    /** A point of the unit square, and the value there. */
+    struct Place
+    {
+      std::vector<double> point;
+      double value;
+    };
+
+
     /**
      * How far one coordinate goes in a direction until the least value over the other one passes a
-     * limit: along the valley in growing steps, then back in halves.
+     * limit: along the valley in growing steps, then between the last two by TOMS 748.
      */
-    double
+    Place
     farthest(Objective &function,
              const double limit,
-             std::vector<double> point,
+             const Place &start,
              const unsigned int direction,
              const bool upward)
     {
-      constexpr double first_step = 0.01, longest_step = 0.05, accuracy = 2e-3;
+      constexpr double first_step = 0.01, longest_step = 0.05, accuracy = 1e-4, at_limit = 1e-3;
 
       const double end = upward ? 1. : 0.;
-      bool passed      = false;
-      for (double step = first_step; step > accuracy && point[direction] != end;)
+      Place inside     = start;
+      const auto go_to = [&](const double coordinate) {
+        std::vector<double> point = inside.point;
+        point[direction]          = coordinate;
+        const double value        = least_value(function, point, direction);
+        return Place{point, value};
+      };
+      Place outside = inside;
+      for (double step = first_step; outside.value <= limit;
+           step        = std::min(2. * step, longest_step))
         {
-          std::vector<double> next = point;
-          next[direction]          = std::clamp(point[direction] + (upward ? step : -step), 0., 1.);
-          if (least_value(function, next, direction) <= limit)
-            point = next;
-          else
-            passed = true;
-          step = passed ? 0.5 * step : std::min(2. * step, longest_step);
+                 inside = outside;
+                 if (inside.point[direction] == end)
+            return inside;
+          outside = go_to(std::clamp(inside.point[direction] + (upward ? step : -step), 0., 1.));
         }
-      return point[direction];
+
+      const auto excess = [&](const double coordinate) {
+        const Place place = go_to(coordinate);
+        const bool near   = std::abs(place.value - limit) <= at_limit * limit;
+        if (near || place.value <= limit)
+          inside = place;
+        return near ? 0. : place.value - limit;
+      };
+      const auto [first, last] = upward ? std::tie(inside, outside) : std::tie(outside, inside);
+      boost::uintmax_t n_most  = 12;
+      boost::math::tools::toms748_solve(
+        excess,
+        double(first.point[direction]),
+        double(last.point[direction]),
+        first.value - limit,
+        last.value - limit,
+        [](const double a, const double b) { return b - a < accuracy; },
+        n_most);
+      return inside;
     }
   } // namespace
 
@@ -130,7 +163,7 @@ namespace Supple
            const double tolerance)
   {
     const UnitSquare square(lowest, highest);
-    FitResult result{start, 0., {}, {}};
+    FitResult result;
     std::exception_ptr failure; // does not find its way through NLopt
     Objective objective = [&](const std::vector<double> &point) {
       try
@@ -147,22 +180,19 @@ namespace Supple
       {
         nlopt::opt opt = optimizer(nlopt::LN_BOBYQA, 0.1, 1e-4);
         opt.set_min_objective(evaluate, &objective);
-        std::vector<double> best = square.point(start);
-        for (double &x : best)
+        Place best{square.point(start), 0.};
+        for (double &x : best.point)
           x = std::clamp(x, 0., 1.);
-        opt.optimize(best, result.value);
-        result.pair = result.lowest = result.highest = square.pair(best);
+        opt.optimize(best.point, best.value);
 
-        const double limit = (1. + tolerance) * result.value;
-        for (const unsigned int direction : {0, 1})
-          for (const bool upward : {false, true})
-            {
-              std::vector<double> end = best;
-              end[direction]          = farthest(objective, limit, best, direction, upward);
-              LayerPair &extent       = upward ? result.highest : result.lowest;
-              (direction == 0 ? extent.thickness : extent.ratio) =
-                direction == 0 ? square.pair(end).thickness : square.pair(end).ratio;
-            }
+        const auto as_pair = [&](const Place &place) {
+          return FitPoint{square.pair(place.point), place.value};
+        };
+        const auto end = [&](const unsigned int direction, const bool upward) {
+          return as_pair(
+            farthest(objective, (1. + tolerance) * best.value, best, direction, upward));
+        };
+        result = {as_pair(best), end(0, false), end(0, true), end(1, false), end(1, true)};
       }
     catch (const std::exception &exception)
       {

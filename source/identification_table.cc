@@ -18,28 +18,29 @@ namespace Supple
     }
 
 
-    /** Errors of one set, or a total of all, a row for each thickness. */
+    /** Errors of one set, or a total of all, a row for each thickness; nothing where the grid is
+     * not done. */
     template <class Number>
     std::string
     markdown_table(const IdentificationTable &table, const Number &number)
     {
-      std::string titles, rule, rows;
-      const double first = table.pairs.front().pair.thickness;
-      for (const PairErrors &pair : table.pairs)
-        if (pair.pair.thickness == first)
-          {
-            titles += " " + digits(pair.pair.ratio, 6) + " |";
-            rule += "---|";
-          }
-      double last = -1.;
-      for (const PairErrors &pair : table.pairs)
+      std::string text = "| thickness |", rule = "|---|";
+      for (const double ratio : table.ratios)
         {
-          if (pair.pair.thickness != last)
-            rows += (last < 0. ? "| " : "\n| ") + table.length(pair.pair.thickness) + " |";
-          last = pair.pair.thickness;
-          rows += " " + table.length(number(pair)) + " |";
+          text += " " + digits(ratio, 6) + " |";
+          rule += "---|";
         }
-      return "| thickness |" + titles + "\n|---|" + rule + "\n" + rows + "\n";
+      text += "\n" + rule + "\n";
+      const std::size_t n_columns = table.ratios.size();
+      for (std::size_t first = 0; first < table.pairs.size(); first += n_columns)
+        {
+          text += "| " + table.length(table.pairs[first].pair.thickness) + " |";
+          for (std::size_t k = first; k < first + n_columns; ++k)
+            text +=
+              " " + (k < table.pairs.size() ? table.length(number(table.pairs[k])) : "") + " |";
+          text += "\n";
+        }
+      return text;
     }
   } // namespace
 
@@ -98,6 +99,24 @@ namespace Supple
   }
 
 
+  bool
+  IdentificationTable::on_edge(const LayerPair &pair) const
+  {
+    const auto at_end = [](const std::vector<double> &list, const double value) {
+      const auto near = [value](const double bound) { return std::abs(value / bound - 1.) < 1e-3; };
+      return list.size() > 1 && (near(list.front()) || near(list.back()));
+    };
+    return at_end(thicknesses, pair.thickness) || at_end(ratios, pair.ratio);
+  }
+
+
+  std::string
+  IdentificationTable::edge_words(const LayerPair &pair) const
+  {
+    return on_edge(pair) ? "; on an edge of the grid" : "";
+  }
+
+
   std::vector<std::string>
   IdentificationTable::sentences() const
   {
@@ -105,24 +124,25 @@ namespace Supple
     const auto names = IdentificationParameters::total_names();
     for (std::size_t s = 0; s < set_numbers.size(); ++s)
       list.push_back("set " + std::to_string(set_numbers[s]) + " : " + words(best_of_set(s).pair) +
-                     ", error " + length(best_of_set(s).errors[s]) + " " + unit);
+                     ", error " + length(best_of_set(s).errors[s]) + " " + unit +
+                     edge_words(best_of_set(s).pair));
     for (unsigned int t = 0; t < names.size() && set_numbers.size() > 1; ++t)
       {
         const PairErrors &best = best_of_total(static_cast<Total>(t));
         list.push_back(names[t] + " : " + words(best.pair) + ", " +
-                       length(best.total(static_cast<Total>(t))) + " " + unit);
+                       length(best.total(static_cast<Total>(t))) + " " + unit +
+                       edge_words(best.pair));
       }
     for (const FittedPair &fit : fits)
       {
-        std::string text = "fit of " + fit.of + " : " + words(fit.pair) + ", " + length(fit.error) +
-                           " " + unit + "; within " + digits(100. * tolerance, 3) +
-                           " % of that from " + digits(fit.lowest.thickness / unit_length, 3) +
-                           " to " + digits(fit.highest.thickness / unit_length, 3) + " " + unit +
-                           " and from " + digits(fit.lowest.ratio, 3) + " to " +
-                           digits(fit.highest.ratio, 3);
-        if (fit.at_bounds)
-          text += "; the best pair is on an edge of the grid";
-        list.push_back(text);
+        const FitResult &found = fit.found;
+        list.push_back("fit of " + fit.of + " : " + words(found.best.pair) + ", " +
+                       length(found.best.value) + " " + unit + "; within " +
+                       digits(100. * tolerance, 3) + " % of that from " +
+                       digits(found.thinnest.pair.thickness / unit_length, 3) + " to " +
+                       digits(found.thickest.pair.thickness / unit_length, 3) + " " + unit +
+                       " and from " + digits(found.softest.pair.ratio, 3) + " to " +
+                       digits(found.hardest.pair.ratio, 3) + edge_words(found.best.pair));
       }
     return list;
   }
@@ -157,6 +177,8 @@ namespace Supple
     std::string text = "# Identification " + name + "\n\n";
     for (const std::string &fact : facts)
       text += "- " + fact + "\n";
+    if (!note.empty())
+      text += "\n**" + note + "**\n";
     text +=
       "\nBest pairs: thickness of the upper layer, and its Young modulus over that of the "
       "lower one\n\n";
@@ -171,6 +193,22 @@ namespace Supple
               markdown_table(*this, [](const PairErrors &pair) {
                 return pair.total(Total::root_of_squares);
               });
+    return text;
+  }
+
+
+  std::string
+  IdentificationTable::fits_csv() const
+  {
+    std::string text = "fit,pair,thickness,ratio,error\n";
+    for (const auto &[of, found] : fits)
+      for (const auto &[name, point] : {std::make_pair("best", &found.best),
+                                        std::make_pair("thinnest", &found.thinnest),
+                                        std::make_pair("thickest", &found.thickest),
+                                        std::make_pair("least ratio", &found.softest),
+                                        std::make_pair("greatest ratio", &found.hardest)})
+        text += of + "," + name + "," + digits(point->pair.thickness / unit_length, 10) + "," +
+                digits(point->pair.ratio, 10) + "," + digits(point->value / unit_length, 10) + "\n";
     return text;
   }
 

@@ -161,6 +161,46 @@ namespace Supple
   }
 
 
+  void
+  LayeredModel::check_center(const std::vector<SurfaceResponse::Vertex> &line) const
+  {
+    const std::string here = base.origin("Probes/Profile center");
+    if (line.size() < 2)
+      throw InputError(here +
+                       ": the profile has no vertices straight to the left and right of it.");
+    const double first = line.front().position, last = line.back().position;
+    const double play = 1e-6 * (last - first);
+    if (first <= play && last >= -play)
+      return;
+    const double center = base.probes.profile_center[0];
+    std::ostringstream text;
+    text << here << ": x = " << center
+         << " m is outside the body, whose surface lies between x = " << center + first << " and "
+         << center + last << "; the center must be where the needle is.";
+    throw InputError(text.str());
+  }
+
+
+  void
+  LayeredModel::throw_not_down(const std::vector<SurfaceResponse::Vertex> &line) const
+  {
+    const auto deepest =
+      std::max_element(line.begin(), line.end(), [](const auto &a, const auto &b) {
+        return a.depth < b.depth;
+      });
+    if (!(deepest->depth > 0.))
+      throw InputError(base.origin("Motion/Displacement") +
+                       ": under the needle, at Probes/Profile center, the surface does not go "
+                       "down; it must.");
+    std::ostringstream text;
+    text << base.origin("Probes/Profile center") << ": at " << base.probes.profile_center
+         << " the surface does not go down; it goes down most at x = "
+         << base.probes.profile_center[0] + deepest->position
+         << ". The center must be where the needle is (Motion/Of).";
+    throw InputError(text.str());
+  }
+
+
   SurfaceResponse
   LayeredModel::surface(const LayerPair &pair) const
   {
@@ -168,18 +208,13 @@ namespace Supple
     simulation.advance();
     auto line = line_of(
       dealii::Utilities::MPI::broadcast(communicator, simulation.profile(identification.profile)));
-    if (line.size() < 2)
-      throw InputError(base.origin("Probes/Profile center") +
-                       ": the profile has no vertices straight to the left and right of it.");
-
+    check_center(line);
     const auto under = std::min_element(line.begin(), line.end(), [](const auto &a, const auto &b) {
       return std::abs(a.position) < std::abs(b.position);
     });
     const double needle = under->depth;
     if (!(needle > 0.))
-      throw InputError(base.origin("Motion/Displacement") +
-                       ": under the needle, at Probes/Profile center, the surface does not go "
-                       "down; it must.");
+      throw_not_down(line);
     for (auto &vertex : line)
       {
         vertex.slide /= needle;
@@ -213,8 +248,7 @@ namespace Supple
     const Simulation simulation(read_scene(pair), "", true, communicator);
     const auto line = line_of(
       dealii::Utilities::MPI::broadcast(communicator, simulation.profile(identification.profile)));
-    if (line.empty())
-      return; // surface() says why
+    check_center(line);
     const double unit = identification.unit_length();
     for (const double direction : identification.comparison.directions())
       {

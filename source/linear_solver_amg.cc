@@ -130,7 +130,7 @@ namespace Supple
       AmgSolver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort)
         : LinearSolver(A, parameters, effort)
         , preconditioning_matrix(A)
-        , patch_system(A.body.patches ? std::make_unique<PatchSystem>(A) : nullptr)
+        , patch_system(make_patch_system(A))
         , multigrid(preconditioning_matrix.get(), A.body.partitioner)
         , n_owned(A.body.n_owned)
         , correction(A.body.n_local)
@@ -205,7 +205,8 @@ namespace Supple
         if (patch_system)
           n_iterations = patch_system->solve(
             x, b, residual, DoublePrecision(multigrid, r, z), parameters, name());
-        while (!patch_system && norm > goal && reduction <= smallest_reduction)
+        const bool whole = !A.body.patches; // the multigrid's finest matrix is A
+        while (whole && norm > goal && reduction <= smallest_reduction)
           {
             const double before = norm;
             const double aim    = std::max(reduction * norm, std::min(0.9 * goal, 0.5 * norm));
@@ -318,7 +319,7 @@ namespace Supple
       }
 
       PreconditioningMatrix preconditioning_matrix;
-      std::unique_ptr<PatchSystem> patch_system; ///< null without patches
+      std::unique_ptr<PatchSystem> patch_system; ///< null where A itself is solved
       Multigrid multigrid;
       RefreshRule rule;
       bool built       = false;

@@ -28,9 +28,8 @@ namespace Supple
                          Effort &effort)
         : LinearSolver(A, parameters, effort)
         , preconditioning_matrix(A)
+        , patch_system(make_patch_system(A))
       {
-        if (A.body.patches)
-          patch_system = std::make_unique<PatchSystem>(A);
       }
 
     protected:
@@ -70,7 +69,7 @@ namespace Supple
         return control.last_step();
       }
 
-      std::unique_ptr<PatchSystem> patch_system; ///< null without patches
+      std::unique_ptr<PatchSystem> patch_system; ///< null where A itself is solved
       GrowingVectorMemory<Vector> memory;
     };
 

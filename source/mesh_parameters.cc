@@ -128,8 +128,10 @@ namespace Supple
                 0,
                 dealii::Patterns::List::max_int_value),
       "Layers of a box or a rectangle from the top, the largest y, downward: their cells have the "
-      "material ids 0, 1, ... Together they are as thick as the body, and each ends where a row "
-      "of cubes or squares does. Empty: all cells have the material id 0.");
+      "material ids 0, 1, ... Together they are as thick as the body. Without Layer rows each has "
+      "to "
+      "end where a row of cubes or squares does; with them it ends anywhere. Empty: all cells have "
+      "the material id 0.");
     add(prm,
         "Layer rows",
         layer_rows,
@@ -139,8 +141,9 @@ namespace Supple
                   Range::whole_number(1),
                   0,
                   dealii::Patterns::List::max_int_value),
-        "How many of the rows of cubes or squares each of the Layers has, from the top downward; "
-        "in a layer they are equally high, so that it may end anywhere. Empty: all rows are.");
+        "How many of the rows of cubes or squares each of the Layers has, a number for each, from "
+        "the top downward; together all rows. The rows of a layer are equally high, and it may end "
+        "anywhere. Empty: all rows of the body are equally high.");
   }
 
 

@@ -136,4 +136,20 @@ namespace Supple
       }
     return n_iterations;
   }
+
+
+  std::unique_ptr<PatchSystem>
+  make_patch_system(const ImplicitOperator &A)
+  {
+    // Measured on the needle: at a Poisson ratio of 0.48 a third of the time of minimal residuals.
+    constexpr double largest_poisson = 0.49;
+
+    if (!A.body.patches)
+      return nullptr;
+    double poisson = 0.;
+    for (const unsigned int id : A.body.cell_material)
+      poisson = std::max(poisson, A.body.material(id).poisson());
+    poisson = dealii::Utilities::MPI::max(poisson, A.body.mesh.communicator);
+    return poisson > largest_poisson + 1e-9 ? std::make_unique<PatchSystem>(A) : nullptr;
+  }
 } // namespace Supple

@@ -1,25 +1,35 @@
 #ifndef supple_identification_fit_h
 #define supple_identification_fit_h
 
-#include <supple/layered_model.h>
+#include <supple/layer_pair.h>
 
 #include <functional>
 
 namespace Supple
 {
-  /** Where a function of the pair is least, and where it is nearly so. */
-  struct FitResult
+  /** A pair, and the value of the function there. */
+  struct FitPoint
   {
     LayerPair pair;
     double value;
-    LayerPair lowest, highest; ///< of all pairs whose value is within the tolerance
+  };
+
+
+  /** Where a function of the pair is least, and where it is nearly so. */
+  struct FitResult
+  {
+    FitPoint best;
+    /** Of all pairs whose value is within the tolerance those of least and greatest thickness, and
+     * of least and greatest ratio. */
+    FitPoint thinnest, thickest, softest, hardest;
   };
 
 
   /**
    * The least value of a function by BOBYQA (Powell 2009, in NLopt) and the extent of the set where
    * it is at most 1 + tolerance times that: how far one of thickness and logarithm of the ratio
-   * goes until the least value over the other passes that limit. No derivatives are needed.
+   * goes until the least value over the other passes that limit. At such an end the value is at the
+   * limit to a thousandth of it, or below where the bounds come first. No derivatives are needed.
    * @param start   inside the bounds
    * @param lowest  bounds of the search
    * @param highest

@@ -1,7 +1,8 @@
 #ifndef supple_identification_table_h
 #define supple_identification_table_h
 
-#include <supple/layered_model.h>
+#include <supple/identification_fit.h>
+#include <supple/identification_parameters.h>
 
 #include <string>
 #include <vector>
@@ -23,12 +24,8 @@ namespace Supple
   /** A pair of least error, and how far others of nearly the same error reach. */
   struct FittedPair
   {
-    std::string of; ///< "set 1", or "root of squares"
-    LayerPair pair;
-    double error; ///< [m]
-    std::vector<double> needle_depths;
-    LayerPair lowest, highest; ///< of the pairs within the tolerance
-    bool at_bounds;            ///< the pair lies on an edge of the grid
+    std::string of;  ///< "set 1", or "root of squares"
+    FitResult found; ///< values: errors [m]
   };
 
 
@@ -50,8 +47,11 @@ namespace Supple
     std::vector<std::string> facts; ///< sentences to stand before the tables
     std::vector<unsigned int> set_numbers;
     std::vector<std::string> side_names;
-    double tolerance; ///< of fits
-    std::vector<PairErrors> pairs;
+    std::vector<double> thicknesses; ///< of the grid [m]
+    std::vector<double> ratios;      ///< of the grid
+    std::string note;                ///< what is missing, a sentence; empty if nothing is
+    double tolerance;                ///< of fits
+    std::vector<PairErrors> pairs;   ///< in the order of the grid, so far as it is done
     std::vector<FittedPair> fits;
     std::vector<std::vector<ComparedPoint>> best_profiles; ///< by set
 
@@ -62,9 +62,17 @@ namespace Supple
     const PairErrors &
     best_of_total(IdentificationParameters::Total how) const;
 
+    /** Whether a pair lies on an edge of the grid, beyond which a better one may be. */
+    bool
+    on_edge(const LayerPair &pair) const;
+
     /** "0.75 mm and 10" */
     std::string
     words(const LayerPair &pair) const;
+
+    /** What is to be said of a pair on an edge, or nothing. */
+    std::string
+    edge_words(const LayerPair &pair) const;
 
     /** The best pair of each set and of each total, a sentence each; and the fits. */
     std::vector<std::string>
@@ -75,6 +83,10 @@ namespace Supple
 
     std::string
     markdown() const;
+
+    /** Best pair of each fit, and the ends of its range. */
+    std::string
+    fits_csv() const;
 
     /** Measured and computed surfaces. */
     std::string

@@ -2,20 +2,13 @@
 #define supple_layered_model_h
 
 #include <supple/identification_parameters.h>
+#include <supple/layer_pair.h>
 #include <supple/parameters.h>
 
 #include <deal.II/base/mpi.h>
 
 namespace Supple
 {
-  /** Thickness of the upper layer [m], and its Young modulus over that of the lower one. */
-  struct LayerPair
-  {
-    double thickness;
-    double ratio;
-  };
-
-
   /** The scene of an identification as a function of its two layers. */
   class LayeredModel
   {
@@ -73,6 +66,15 @@ namespace Supple
     /** @throws InputError for a measured depth that the body does not have */
     void
     check_depths(const std::vector<MeasuredSet> &sets) const;
+
+    /** @throws InputError if the needle is not on the surface */
+    void
+    check_center(const std::vector<SurfaceResponse::Vertex> &line) const;
+
+    /** Says which entry it is that the surface does not go down under the needle.
+     * @throws InputError always */
+    [[noreturn]] void
+    throw_not_down(const std::vector<SurfaceResponse::Vertex> &line) const;
 
     /** Vertices of the surface in line with the needle, from rows of the profile. */
     std::vector<SurfaceResponse::Vertex>

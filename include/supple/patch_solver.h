@@ -6,6 +6,7 @@
 #include <deal.II/lac/vector_memory.h>
 
 #include <functional>
+#include <memory>
 
 namespace Supple
 {
@@ -87,6 +88,15 @@ namespace Supple
     mutable Vector scratch;
     mutable dealii::GrowingVectorMemory<State> memory;
   };
+
+
+  /**
+   * Null where conjugate gradients on A itself need less time, preconditioned by B: without
+   * patches, and while the bulk modulus is not much larger than that in B, for the condition of
+   * B^-1 A is their ratio.
+   */
+  std::unique_ptr<PatchSystem>
+  make_patch_system(const ImplicitOperator &A);
 } // namespace Supple
 
 #endif

@@ -32,12 +32,6 @@ namespace Supple
     double
     depth(double position, double needle_depth) const;
 
-    const std::vector<Vertex> &
-    vertices() const
-    {
-      return all;
-    }
-
   private:
     std::vector<Vertex> all;
   };
