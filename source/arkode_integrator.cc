@@ -355,22 +355,42 @@ namespace Supple
   }
 
 
+  void
+  ArkodeIntegrator::set_rotations(const EquationOfMotion::Rotations rotations)
+  {
+    equation.set_rotations(rotations);
+    set_linear(rotations == EquationOfMotion::Rotations::frozen || model.forces_are_linear());
+  }
+
+
   /** First the same step with rotations that follow, then half of it. */
   bool
   ArkodeIntegrator::make_safer()
   {
-    const bool smaller = !equation.rotations_are_frozen();
+    const bool smaller = !equation.rotations_are_frozen() || newton_fails;
     if (smaller && last_size < settings.step * std::pow(0.5, settings.n_retries - 0.5))
       return false;
     if (!smaller)
-      {
-        equation.set_rotations(EquationOfMotion::Rotations::following);
-        set_linear(model.forces_are_linear());
-      }
+      set_rotations(EquationOfMotion::Rotations::following);
     size_limit = smaller ? 0.5 * last_size : last_size;
     if (time == grid * settings.step) // it is where the step to be done again has landed
       --grid;
     started = false;
+    return true;
+  }
+
+
+  /** Where many cells are inverted their forces jump, and Newton's method may find no solution in
+   * steps of any size. */
+  bool
+  ArkodeIntegrator::make_simpler()
+  {
+    if (settings.method != Method::backward_euler || equation.rotations_are_frozen())
+      return false;
+    set_rotations(EquationOfMotion::Rotations::frozen);
+    newton_fails = true;
+    size_limit   = 0.5 * std::min(last_size, settings.step);
+    started      = false;
     return true;
   }
 
@@ -380,10 +400,9 @@ namespace Supple
   {
     size_limit = std::numeric_limits<double>::max();
     if (settings.method == Method::backward_euler && !equation.rotations_are_frozen())
-      {
-        equation.set_rotations(EquationOfMotion::Rotations::frozen);
-        set_linear(true);
-      }
+      set_rotations(EquationOfMotion::Rotations::frozen);
+    if (time == grid * settings.step)
+      newton_fails = false;
   }
 
 

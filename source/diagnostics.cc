@@ -1,6 +1,7 @@
 #include <supple/diagnostics.h>
 
 #include <supple/energy_guard.h>
+#include <supple/rotation.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -68,6 +69,55 @@ namespace Supple
   }
 
 
+  double
+  distance_from_shape(const Body &body, const Vector &displacement)
+  {
+    const MPI_Comm communicator = body.mesh.communicator;
+    const auto place            = [&](const unsigned int node) {
+      Tensor<1, 3> u;
+      for (unsigned int i = 0; i < 3; ++i)
+        u[i] = displacement.local_element(3 * node + i);
+      return u + Tensor<1, 3>(body.position(node));
+    };
+
+    Tensor<1, 3> rest, now; // means
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      {
+        rest += Tensor<1, 3>(body.position(node));
+        now += place(node);
+      }
+    const double n_nodes = Utilities::MPI::sum(double(body.n_owned), communicator);
+    rest                 = Utilities::MPI::sum(rest, communicator) / n_nodes;
+    now                  = Utilities::MPI::sum(now, communicator) / n_nodes;
+    if (body.mesh.section.axisymmetric())
+      for (const unsigned int i : {0, 2})
+        rest[i] = now[i] = 0.;
+
+    Tensor<2, 3> moments;
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      moments += outer_product(place(node) - now, Tensor<1, 3>(body.position(node)) - rest);
+    moments = Utilities::MPI::sum(moments, communicator);
+    if (body.mesh.section.plane())
+      moments[2][2] = moments.norm(); // a plane body is not turned over
+    Matrix3<double> M = Matrix3<double>::identity();
+    for (unsigned int k = 0; k < 9 && !body.mesh.section.axisymmetric(); ++k)
+      M.entries[k] = moments[k / 3][k % 3];
+    const Matrix3<double> R = nearest_rotation(M);
+
+    double largest = 0.;
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      {
+        const Tensor<1, 3> arm = Tensor<1, 3>(body.position(node)) - rest;
+        Tensor<1, 3> distance  = place(node) - now;
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            distance[i] -= R(i, j) * arm[j];
+        largest = std::max(largest, distance.norm());
+      }
+    return Utilities::MPI::max(largest, communicator);
+  }
+
+
   Diagnostics::Diagnostics(const Body &body, const Loads &loads, const bool stationary)
     : body(body)
     , loads(loads)
@@ -85,6 +135,11 @@ namespace Supple
     worst.most_inverted    = std::max(worst.most_inverted, measurement.inverted);
     if (rise > energy_accuracy * largest_energy)
       ++worst.energy_rises;
+    const std::vector<double> row = measurement.row();
+    if (!std::all_of(row.begin(), row.end(), [](const double value) {
+          return std::isfinite(value);
+        }))
+      ++worst.not_finite;
   }
 
 
@@ -99,7 +154,8 @@ namespace Supple
             {"energy_rises", worst.energy_rises},
             {"most_inverted", worst.most_inverted},
             {"min_volume_ratio", worst.min_volume_ratio},
-            {"max_volume_ratio", worst.max_volume_ratio}};
+            {"max_volume_ratio", worst.max_volume_ratio},
+            {"not_finite", worst.not_finite}};
   }
 
 
@@ -116,6 +172,7 @@ namespace Supple
     worst.most_inverted    = saved.at("most_inverted");
     worst.min_volume_ratio = saved.at("min_volume_ratio");
     worst.max_volume_ratio = saved.at("max_volume_ratio");
+    worst.not_finite       = saved.at("not_finite");
   }
 
 

@@ -109,12 +109,16 @@ namespace Supple
     StepReport report                    = step_once(state, observed || guarded);
     while (guarded && guard.rises(state, report.load_work) && make_safer())
       {
-        ++model.effort.rejected_steps;
-        time  = start;
-        state = previous;
-        model.body.update_rotations(state.block(0), model.effort);
-        set_forces(state, time);
-        report = step_once(state, true);
+        try
+          {
+            report = step_again(state, start);
+          }
+        catch (const ComputationError &)
+          {
+            if (!make_simpler())
+              throw;
+            report = step_again(state, start);
+          }
       }
     if (guarded)
       {
@@ -124,6 +128,18 @@ namespace Supple
     model.effort.jumps += model.constraints.move() && model.constraints.jump(start, report.time);
     report.linear_iterations = equation.linear_iterations - iterations_so_far;
     return report;
+  }
+
+
+  StepReport
+  DynamicIntegrator::step_again(State &state, const double start)
+  {
+    ++model.effort.rejected_steps;
+    time  = start;
+    state = previous;
+    model.body.update_rotations(state.block(0), model.effort);
+    set_forces(state, time);
+    return step_once(state, true);
   }
 
 

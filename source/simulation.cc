@@ -625,7 +625,8 @@ namespace Supple
     summary.extremes       = diagnostics.extremes();
     Vector rest;
     body.initialize(rest);
-    summary.distance_from_rest = largest_vertex_distance(state.block(0), rest);
+    summary.distance_from_rest  = largest_vertex_distance(state.block(0), rest);
+    summary.distance_from_shape = distance_from_shape(body, state.block(0));
     return summary.to_json(model());
   }
 

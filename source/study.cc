@@ -10,6 +10,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -38,7 +39,9 @@ namespace Supple
     table.name        = parameters.name;
     table.error_names = quantities.error_names();
     table.value_names = quantities.value_names();
-    table.judged      = quantities.has_condition();
+    table.judged      = std::any_of(plan.runs.begin(), plan.runs.end(), [](const PlannedRun &run) {
+      return !run.right_if.empty();
+    });
     table.targets     = parameters.targets;
     state_facts();
   }
@@ -102,7 +105,8 @@ namespace Supple
                                    std::to_string(parameters.repeats)) +
       (n_ranks == 1 ? ", 1 process." : ", " + std::to_string(n_ranks) + " processes."));
     if (table.judged)
-      table.facts.push_back("Right: `" + parameters.right_if + "`.");
+      table.facts.push_back("Right: `" + parameters.right_if +
+                            "`, unless the study has another condition for the case.");
   }
 
 
@@ -221,11 +225,15 @@ namespace Supple
         row.status = StudyRecord::Status::failed;
         row.reason = error.what();
       }
-    if (quantities.has_condition())
-      row.verdict = row.status == StudyRecord::Status::refused  ? "refused"
-                    : row.status == StudyRecord::Status::failed ? "failed"
-                    : quantities.is_right(row.values)           ? "right"
-                                                                : "wrong";
+    if (!run.right_if.empty())
+      row.verdict = row.status == StudyRecord::Status::refused ? "refused"
+                    : row.status == StudyRecord::Status::failed
+                      ? "failed"
+                      : quantities.verdict(run,
+                                           row.values,
+                                           table.rows.empty() ? std::vector<double>()
+                                                              : table.rows.back().values,
+                                           row.warnings);
     return row;
   }
 
@@ -240,6 +248,7 @@ namespace Supple
     row.failed   = record.failed;
     row.seconds  = record.seconds;
     row.n_cells  = record.n_cells;
+    row.warnings = record.warnings;
     row.size     = row.run.cell_size > 0. ? row.run.cell_size : record.cell_size;
     if (plan.kind == StudyPlan::Kind::methods)
       row.size = record.end / record.steps;

@@ -71,8 +71,9 @@ namespace Supple
     prm.add_parameter("Cases",
                       cases,
                       "A row for each of these, such as long step [Time/Step=1]; fast "
-                      "[Start/Velocity=0; 0; -400 | Time/Steps=10]. Unit: none. Range: name "
-                      "[overrides], set apart by semicolons.",
+                      "[Start/Velocity=0; 0; -400 | Time/Steps=10]. Behind a colon a case may have "
+                      "a condition of its own, in place of Right if. Unit: none. Range: name "
+                      "[overrides]: condition, set apart by semicolons.",
                       any);
     prm.add_parameter("Repeats",
                       repeats,
@@ -130,12 +131,15 @@ namespace Supple
       "[1/s]). summary takes a number out of summary.json. Unit: none. Range: name: what, set "
       "apart by semicolons.",
       any);
-    prm.add_parameter("Right if",
-                      right_if,
-                      "A run is right where this expression of the Columns holds, such as rises "
-                      "== 0 && abs(sag + 0.114) < 0.001. Unit: none. Range: an expression of "
-                      "names in Columns, or nothing.",
-                      any);
+    prm.add_parameter(
+      "Right if",
+      right_if,
+      "A run is right where this expression of the Columns holds, such as rises "
+      "== 0 && abs(sag + 0.114) < 0.001. A name with above_ before it is that number "
+      "of the row above. Behind it may stand: or warning TEXT. A run that is not "
+      "right, but has a warning with this text, has the verdict warned in place of "
+      "wrong. Unit: none. Range: an expression of names in Columns, or nothing.",
+      any);
     prm.add_parameter(
       "Targets",
       targets,

@@ -88,6 +88,9 @@ namespace Supple
           plan_cases(study);
           break;
       }
+    for (PlannedRun &run : runs)
+      if (run.right_if.empty())
+        run.right_if = study.right_if;
   }
 
 
@@ -239,6 +242,7 @@ namespace Supple
         PlannedRun run;
         run.name      = item.name;
         run.overrides = item.overrides;
+        run.right_if  = item.rest;
         runs.push_back(run);
       }
     check_names(runs, study.place("Cases"));

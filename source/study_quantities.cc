@@ -107,14 +107,13 @@ namespace Supple
   StudyQuantities::StudyQuantities(const StudyParameters &study, const StudyPlan &plan)
     : kind(plan.kind)
     , available(StudyRecord::column_names(plan.base))
-    , condition(study.right_if)
-    , condition_place(study.place("Right if"))
+    , condition_place(study.place(study.right_if.empty() ? "Cases" : "Right if"))
   {
     read_values(study);
     read_exact_values(study);
     if (kind == StudyPlan::Kind::methods && exact.empty())
       read_quantities(study, plan);
-    check_condition(study);
+    check_conditions(plan);
   }
 
 
@@ -197,12 +196,16 @@ namespace Supple
 
 
   void
-  StudyQuantities::check_condition(const StudyParameters &study) const
+  StudyQuantities::check_conditions(const StudyPlan &plan) const
   {
-    if (!condition.empty() && all_values.empty())
-      throw InputError(study.place("Right if") + ": it needs Columns to speak of.");
-    if (!condition.empty())
-      is_right(std::vector<double>(all_values.size(), 1.));
+    const std::vector<double> ones(all_values.size(), 1.);
+    for (const PlannedRun &run : plan.runs)
+      if (!run.right_if.empty())
+        {
+          if (all_values.empty())
+            throw InputError(condition_place + ": it needs Columns to speak of.");
+          verdict(run, ones, ones, {});
+        }
   }
 
 
@@ -398,17 +401,38 @@ namespace Supple
 
 
   bool
-  StudyQuantities::is_right(const std::vector<double> &values) const
+  StudyQuantities::holds(const std::string &condition,
+                         const std::vector<double> &values,
+                         const std::vector<double> &above) const
   {
     std::map<std::string, double> constants;
-    for (std::size_t i = 0; i < values.size(); ++i)
+    for (std::size_t i = 0; i < all_values.size(); ++i)
       {
-        const std::string &name = all_values[i].name;
-        if (!std::isfinite(values[i]) &&
-            std::regex_search(condition, std::regex("\\b" + name + "\\b")))
-          return false;
-        constants[name] = values[i];
+        constants[all_values[i].name]            = i < values.size() ? values[i] : nothing;
+        constants["above_" + all_values[i].name] = i < above.size() ? above[i] : nothing;
       }
+    for (const auto &[name, value] : constants)
+      if (!std::isfinite(value) && std::regex_search(condition, std::regex("\\b" + name + "\\b")))
+        return false;
     return Expression(condition, 1, condition_place, constants).value(dealii::Point<3>(), 0.) != 0.;
+  }
+
+
+  std::string
+  StudyQuantities::verdict(const PlannedRun &run,
+                           const std::vector<double> &values,
+                           const std::vector<double> &above,
+                           const std::vector<std::string> &warnings) const
+  {
+    std::smatch parts;
+    std::regex_match(run.right_if, parts, std::regex("(.*?)(\\s+or warning\\s+(.*\\S)\\s*)?"));
+    if (holds(parts[1], values, above))
+      return "right";
+    const std::string words = parts[3];
+    const bool told =
+      !words.empty() && std::any_of(warnings.begin(), warnings.end(), [&](const std::string &text) {
+        return text.find(words) != std::string::npos;
+      });
+    return told ? "warned" : "wrong";
   }
 } // namespace Supple

@@ -144,6 +144,7 @@ namespace Supple
     const auto summary  = nlohmann::json::parse(record.summary);
     record.n_cells      = summary["cells"];
     record.cell_size    = summary["cell_size"];
+    record.warnings     = summary["warnings"].get<std::vector<std::string>>();
     record.steps        = summary["steps"];
     record.rejected     = summary["rejected_steps"];
     record.failed       = summary["failed_steps"];

@@ -164,8 +164,7 @@ namespace Supple
           front.add(row.on_front ? 1. : 0., row.on_front ? "*" : "");
           verdict.add(row.verdict);
           status.csv.push_back(row.status_text());
-          status.markdown.push_back(row.status == StudyRecord::Status::done ? ""
-                                                                            : row.status_text());
+          status.markdown.push_back(row.note());
         }
       columns.insert(columns.end(), {seconds, steps, rejected, failed});
       if (table.kind != StudyPlan::Kind::cases)
@@ -217,6 +216,18 @@ namespace Supple
           return "refused: " + reason;
       }
     return "";
+  }
+
+
+  std::string
+  StudyRow::note() const
+  {
+    if (status != StudyRecord::Status::done)
+      return status_text();
+    std::string text;
+    for (const std::string &warning : warnings)
+      text += (text.empty() ? "" : " ") + warning;
+    return text;
   }
 
 

@@ -136,13 +136,18 @@ namespace Supple
         json["extremes"] = {{"energy_rises", extremes.energy_rises},
                             {"most_inverted", extremes.most_inverted},
                             {"min_volume_ratio", extremes.min_volume_ratio},
-                            {"max_volume_ratio", extremes.max_volume_ratio}};
+                            {"max_volume_ratio", extremes.max_volume_ratio},
+                            {"not_finite", extremes.not_finite}};
       }
-    json["distance_from_rest"] = distance_from_rest;
-    json["built"]              = what_was_built(*this, model);
-    json["versions"]           = {{"supple", SUPPLE_VERSION},
-                                  {"deal.II", DEAL_II_PACKAGE_VERSION},
-                                  {"SUNDIALS", SUNDIALS_VERSION}};
+    json["distance_from_rest"]   = distance_from_rest;
+    json["distance_from_shape"]  = distance_from_shape;
+    json["relative_to_diameter"] = {
+      {"distance_from_rest", distance_from_rest / model.body.mesh.diameter()},
+      {"distance_from_shape", distance_from_shape / model.body.mesh.diameter()}};
+    json["built"]    = what_was_built(*this, model);
+    json["versions"] = {{"supple", SUPPLE_VERSION},
+                        {"deal.II", DEAL_II_PACKAGE_VERSION},
+                        {"SUNDIALS", SUNDIALS_VERSION}};
     return json.dump(2) + "\n";
   }
 } // namespace Supple

@@ -256,7 +256,7 @@ namespace Supple
       "What is done when the total energy rises by more than the work of a step: nothing, a "
       "warning "
       "at the end, or the step is done again, backward euler with rotations that follow, and then "
-      "in halves (fixed steps only).");
+      "in halves (fixed steps only); what rises in the smallest of them is told as with warn.");
     add_choice(
       prm,
       "Estimate error",

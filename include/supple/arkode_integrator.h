@@ -47,12 +47,19 @@ namespace Supple
     bool
     make_safer() override;
 
+    bool
+    make_simpler() override;
+
     void
     accept_step() override;
 
     /** Stages are one linear system each, or Newton's method. */
     void
     set_linear(bool linear);
+
+    /** Of backward Euler alone. */
+    void
+    set_rotations(EquationOfMotion::Rotations rotations);
 
     void
     create_memory();
@@ -111,7 +118,8 @@ namespace Supple
     double set_size        = 0.; ///< the fixed step ARKode knows of [s]
     double last_size       = 0.; ///< of the last fixed step that succeeded [s]
     double size_limit      = std::numeric_limits<double>::max(); ///< of the next step [s]
-    unsigned int grid      = 0; ///< multiples of the step that are reached
+    unsigned int grid      = 0;     ///< multiples of the step that are reached
+    bool newton_fails      = false; ///< up to the next of them
     long newton_iterations = 0;
     std::optional<StableStep> stable; ///< of an explicit method
   };

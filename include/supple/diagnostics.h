@@ -50,7 +50,15 @@ namespace Supple
     unsigned int most_inverted = 0; ///< cells
     double min_volume_ratio    = 1.;
     double max_volume_ratio    = 1.;
+    unsigned int not_finite    = 0; ///< rows of the history with something that is no finite number
   };
+
+
+  /** How far the body is from its shape at rest: the largest distance of a vertex from it when it
+   * is turned and shifted to fit best, in the mean square over all vertices (Kabsch 1976); about an
+   * axis it is shifted alone [m]. */
+  double
+  distance_from_shape(const Body &body, const Vector &displacement);
 
 
   /**

@@ -32,6 +32,14 @@ namespace Supple
     virtual bool
     make_safer() = 0;
 
+    /** The safer way has failed. Prepares for another one, that needs no iteration.
+     * @return false if there is none */
+    virtual bool
+    make_simpler()
+    {
+      return false;
+    }
+
     /** The last step stands, and the next one is as usual again. */
     virtual void
     accept_step()
@@ -79,6 +87,10 @@ namespace Supple
     /** One step and what is to be known of it. @throws ComputationError with the state as it was */
     StepReport
     step_once(State &state, bool observed);
+
+    /** The step from @p start once more, in the way that was prepared. */
+    StepReport
+    step_again(State &state, double start);
 
     EnergyGuard guard;
     const bool guarded;

@@ -19,6 +19,7 @@ namespace Supple
     double step      = 0.; ///< of a method with fixed steps [s]
     double tolerance = 0.; ///< of a method with variable steps
     double cell_size = 0.; ///< of a level whose name says so [m]
+    std::string right_if;  ///< its own or the study's condition; may be empty
 
     std::string
     label() const;

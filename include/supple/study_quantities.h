@@ -44,16 +44,17 @@ namespace Supple
     std::vector<double>
     values(const StudyRecord &run) const;
 
-    /** Whether a run is right, if there is a condition for that; it is not where a number that the
-     * condition speaks of is none. */
-    bool
-    is_right(const std::vector<double> &values) const;
-
-    bool
-    has_condition() const
-    {
-      return !condition.empty();
-    }
+    /**
+     * Of a run with a condition, "right", "wrong", or "warned": wrong, but with a warning that the
+     * condition asks for ("... or warning TEXT"). It is not right where a number that the condition
+     * speaks of is none.
+     * @param above values of the row above, if there is one; the condition knows them as above_NAME
+     */
+    std::string
+    verdict(const PlannedRun &run,
+            const std::vector<double> &values,
+            const std::vector<double> &above,
+            const std::vector<std::string> &warnings) const;
 
   private:
     /** A number of a run: "largest tip.uz". */
@@ -81,7 +82,12 @@ namespace Supple
     read_exact_values(const StudyParameters &study);
 
     void
-    check_condition(const StudyParameters &study) const;
+    check_conditions(const StudyPlan &plan) const;
+
+    bool
+    holds(const std::string &condition,
+          const std::vector<double> &values,
+          const std::vector<double> &above) const;
 
     /** @throws InputError where there is no such column */
     void
@@ -101,7 +107,7 @@ namespace Supple
     std::vector<std::string> quantities;
     std::vector<Value> all_values;
     std::vector<ExactValue> exact;
-    std::string condition, condition_place;
+    const std::string condition_place;
   };
 } // namespace Supple
 

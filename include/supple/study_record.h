@@ -37,6 +37,7 @@ namespace Supple
     double end            = 0.; ///< of the run [s]
     double seconds        = 0.; ///< median of the timed runs
     std::string summary;        ///< summary.json
+    std::vector<std::string> warnings;
 
     /** The names of the columns of history.csv and probes.csv that a scene gives. */
     static std::set<std::string>

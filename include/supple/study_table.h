@@ -14,7 +14,8 @@ namespace Supple
   {
     PlannedRun run;
     StudyRecord::Status status = StudyRecord::Status::done;
-    std::string reason;         ///< of a failure or refusal
+    std::string reason; ///< of a failure or refusal
+    std::vector<std::string> warnings;
     std::vector<double> errors; ///< relative; not-a-number where there is none
     std::vector<double> values;
     std::string verdict;
@@ -35,6 +36,10 @@ namespace Supple
     /** "done", "failed: ..." or "refused: ..." */
     std::string
     status_text() const;
+
+    /** What went wrong, or the warnings. */
+    std::string
+    note() const;
   };
 
 

@@ -29,6 +29,8 @@ namespace Supple
     Measurement last;
     Extremes extremes;
     double distance_from_rest = 0.; ///< of the vertex that is farthest from its place at rest [m]
+    double distance_from_shape =
+      0.; ///< the same, from the body at rest that is shifted and turned [m]
 
     std::string
     to_json(const Model &model) const;
