@@ -1,4 +1,5 @@
 #include <supple/block_smoother.h>
+#include <supple/huge_pages.h>
 
 #include <Eigen/Dense>
 
@@ -10,10 +11,12 @@ namespace Supple
   template <unsigned int B>
   BlockSmoother<B>::BlockSmoother(const SymmetricPattern &pattern)
     : pattern(pattern)
-    , lower(B * B * pattern.n_entries() + 8) // the load of a row takes in what follows it
     , diagonal(B * static_cast<std::size_t>(pattern.n_owned))
     , inverse(B * static_cast<std::size_t>(pattern.n_owned))
   {
+    // The load of a row takes in what follows it.
+    resize_in_huge_pages(lower, B * B * pattern.n_entries() + 8);
+
     const auto ghost_columns = pattern.column.begin() + pattern.row_start[pattern.n_owned];
     std::vector<std::uint32_t> nodes(ghost_columns, pattern.column.end());
     std::sort(nodes.begin(), nodes.end());
