@@ -20,7 +20,12 @@ namespace Supple
     class ConjugateGradients : public IterativeSolver
     {
     public:
-      using IterativeSolver::IterativeSolver;
+      ConjugateGradients(const ImplicitOperator &A,
+                         const SolverParameters &parameters,
+                         Effort &effort)
+        : IterativeSolver(A, parameters, effort)
+      {
+      }
 
     protected:
       Preconditioner preconditioner;

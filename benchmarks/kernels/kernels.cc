@@ -50,7 +50,7 @@ namespace
         }
       constraints.set_zero(displacement);
       for (std::size_t node = 0; node < body.n_owned; ++node)
-        b[node].lanes = {1.f, 2.f, 3.f, 0.f};
+        b[node].lanes = Lanes<float, 3>{1.f, 2.f, 3.f, 0.f};
       body.update_rotations(displacement, effort);
       const double dt = parameters.time.step;
       A.assemble(dt);
