@@ -27,14 +27,18 @@ def parser(documentation):
     return options
 
 
-def run(scene, settings, program):
-    """summary.json of one run of parameters/SCENE.prm."""
+def run(scene, settings, program, launcher=()):
+    """summary.json of one run of parameters/SCENE.prm, with the peak memory of the program in MB as "peak_memory"."""
     with tempfile.TemporaryDirectory() as folder:
-        command = [program, ROOT / "parameters" / f"{scene}.prm", "--quiet", "--output", folder]
+        command = [*launcher, program, ROOT / "parameters" / f"{scene}.prm", "--quiet", "--output", folder]
         for entry, value in {**SILENT, **settings}.items():
             command += ["--set", f"{entry}={value}"]
-        subprocess.run(command, check=True, env={**os.environ, **ENVIRONMENT})
-        return json.loads((pathlib.Path(folder) / "summary.json").read_text())
+        process = subprocess.Popen(command, env={**os.environ, **ENVIRONMENT})
+        _, status, usage = os.wait4(process.pid, 0)
+        if status != 0:
+            raise SystemExit(f"failed: {' '.join(map(str, command))}")
+        summary = json.loads((pathlib.Path(folder) / "summary.json").read_text())
+        return {**summary, "peak_memory": usage.ru_maxrss / 1024}
 
 
 def seconds_a_step(summary):
@@ -42,7 +46,7 @@ def seconds_a_step(summary):
     return summary["seconds"]["run"] / summary["steps"]
 
 
-def median_run(scene, settings, arguments):
+def median_run(scene, settings, arguments, launcher=()):
     """That of several runs with the median time a step."""
-    runs = [run(scene, settings, arguments.program) for _ in range(arguments.repeat)]
+    runs = [run(scene, settings, arguments.program, launcher) for _ in range(arguments.repeat)]
     return sorted(runs, key=seconds_a_step)[len(runs) // 2]

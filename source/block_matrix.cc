@@ -1,4 +1,5 @@
 #include <supple/block_matrix.h>
+#include <supple/huge_pages.h>
 
 #include <algorithm>
 
@@ -16,9 +17,9 @@ namespace Supple
 
   SymmetricBlockMatrix::SymmetricBlockMatrix(const SymmetricPattern &pattern)
     : pattern(pattern)
-    , lower(9 * (pattern.n_entries() + 1))
     , diagonal(9 * (pattern.n_owned + 1))
   {
+    resize_in_huge_pages(lower, 9 * (pattern.n_entries() + 1));
   }
 
 
@@ -36,6 +37,12 @@ namespace Supple
     for (std::size_t node = 0; node < pattern.n_owned; ++node)
       for (unsigned int i = 0; i < 3; ++i)
         diagonal[9 * node + 4 * i] += factor;
+  }
+
+
+  namespace
+  {
+    constexpr std::ptrdiff_t lead = 256; // numbers between those in use and those asked for
   }
 
 
@@ -58,7 +65,8 @@ namespace Supple
           }
         for (std::size_t k = pattern.row_start[i]; k < pattern.row_start[i + 1]; ++k)
           {
-            const double *a  = &lower[9 * k];
+            const double *a = &lower[9 * k];
+            __builtin_prefetch(a + lead);
             const double *xj = x + 3 * static_cast<std::size_t>(pattern.column[k]);
             double *yj       = y + 3 * static_cast<std::size_t>(pattern.column[k]);
 

@@ -1,4 +1,5 @@
 #include <supple/block_smoother.h>
+#include <supple/huge_pages.h>
 
 #include <Eigen/Dense>
 
@@ -10,10 +11,12 @@ namespace Supple
   template <unsigned int B>
   BlockSmoother<B>::BlockSmoother(const SymmetricPattern &pattern)
     : pattern(pattern)
-    , lower(B * B * pattern.n_entries() + 8) // the load of a row takes in what follows it
     , diagonal(B * static_cast<std::size_t>(pattern.n_owned))
     , inverse(B * static_cast<std::size_t>(pattern.n_owned))
   {
+    // The load of a row takes in what follows it.
+    resize_in_huge_pages(lower, B * B * pattern.n_entries() + 8);
+
     const auto ghost_columns = pattern.column.begin() + pattern.row_start[pattern.n_owned];
     std::vector<std::uint32_t> nodes(ghost_columns, pattern.column.end());
     std::sort(nodes.begin(), nodes.end());
@@ -118,13 +121,33 @@ namespace Supple
   }
 
 
+  namespace
+  {
+    // How far ahead of its use a block is asked for [bytes]: what memory takes to answer.
+    constexpr std::ptrdiff_t lead = 2048;
+
+
+    /** Asks for the block that comes after some more, or before if the sweep goes backwards. */
+    template <unsigned int B, int direction>
+    inline void
+    ask_for_next(const float *block)
+    {
+      constexpr std::ptrdiff_t line = 64;
+      for (std::ptrdiff_t part = 0; part < std::ptrdiff_t(B * B * sizeof(float)); part += line)
+        __builtin_prefetch(reinterpret_cast<const char *>(block) + direction * lead + part);
+    }
+  } // namespace
+
+
   template <unsigned int B>
+  template <int direction>
   inline Lanes<float, B>
   BlockSmoother<B>::row_product(const std::size_t row, const NodeValues<B> *x) const
   {
     Lanes<float, B> sums[B]{};
     for (std::size_t k = pattern.row_start[row]; k < pattern.row_start[row + 1]; ++k)
       {
+        ask_for_next<B, direction>(&lower[B * B * k]);
         const Lanes<float, B> x_j = x[pattern.column[k]].lanes;
         for (unsigned int i = 0; i < B; ++i)
           sums[i] += load<Lanes<float, B>>(&lower[B * (B * k + i)]) * x_j;
@@ -206,6 +229,7 @@ namespace Supple
           x_i[a] = broadcast<B>(x[i].lanes[a]);
         for (std::size_t k = pattern.row_start[i]; k < pattern.row_start[i + 1]; ++k)
           {
+            ask_for_next<B, 1>(&lower[B * B * k]);
             const std::uint32_t j     = pattern.column[k];
             const Lanes<float, B> x_j = x[j].lanes;
             Lanes<float, B> y_j       = y[j].lanes;
@@ -230,7 +254,7 @@ namespace Supple
   {
     for (std::size_t i = 0; i < pattern.n_owned; ++i)
       {
-        const Lanes<float, B> x_i = solve_diagonal(i, b[i].lanes - row_product(i, x));
+        const Lanes<float, B> x_i = solve_diagonal(i, b[i].lanes - row_product<1>(i, x));
         x[i].lanes                = x_i;
         residual[i].lanes         = Lanes<float, B>{};
         add_transposed(i, -x_i, residual);
@@ -255,7 +279,7 @@ namespace Supple
   {
     for (std::size_t i = pattern.n_owned; i-- > 0;)
       {
-        const Lanes<float, B> x_i = solve_diagonal(i, b[i].lanes - row_product(i, x));
+        const Lanes<float, B> x_i = solve_diagonal(i, b[i].lanes - row_product<-1>(i, x));
         x[i].lanes                = x_i;
         add_transposed(i, -x_i, b);
       }

@@ -1,4 +1,5 @@
 #include <supple/cells.h>
+#include <supple/huge_pages.h>
 
 #include <algorithm>
 #include <cmath>
@@ -82,10 +83,12 @@ namespace Supple
     , section(section)
     , n_nodes(section.plane() ? 3 : 4)
     , pair_share(1. / (n_nodes * (n_nodes + 1)))
-    , batches((cells.size() + n_lanes - 1) / n_lanes, Batch{}) // empty lanes: zero volume, node 0
-    , hoops(section.axisymmetric() ? batches.size() : 0, Hoop{})
     , positions(positions)
   {
+    // Empty lanes: zero volume, node 0.
+    resize_in_huge_pages(batches, (cells.size() + n_lanes - 1) / n_lanes);
+    if (section.axisymmetric())
+      hoops.resize(batches.size());
     for (std::size_t c = 0; c < n_cells; ++c)
       add_cell(c, cells[c]);
   }
@@ -142,7 +145,8 @@ namespace Supple
   void
   Cells::connect(const SymmetricPattern &pattern)
   {
-    slots.resize(batches.size());
+    slots.clear();
+    resize_in_huge_pages(slots, batches.size());
     for (std::size_t b = 0; b < batches.size(); ++b)
       for (unsigned int lane = 0; lane < n_lanes; ++lane)
         {
@@ -292,7 +296,8 @@ namespace Supple
   void
   Cells::update_rotations(const RotationMethod method, const double *displacement)
   {
-    rotations.resize(batches.size());
+    if (rotations.empty())
+      resize_in_huge_pages(rotations, batches.size());
     if (section.plane())
       for (std::size_t b = 0; b < batches.size(); ++b)
         rotations[b] = rotation_in_plane(method, deformation_gradient(b, displacement));

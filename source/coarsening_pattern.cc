@@ -1,4 +1,5 @@
 #include <supple/coarsening.h>
+#include <supple/huge_pages.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -26,10 +27,11 @@ namespace Supple
     find_coarse_pattern();
     estimate_largest_eigenvalue();
 
-    values.resize(6 * B * column.size() + 2); // the load of a row takes in what follows it
+    // The load of a row takes in what follows it.
+    resize_in_huge_pages(values, 6 * B * column.size() + 2);
     scale.resize(fine.pattern.n_local);
     tentative.resize(fine.pattern.n_local);
-    matrix.lower.resize(matrix.pattern.n_entries());
+    resize_in_huge_pages(matrix.lower, matrix.pattern.n_entries());
     matrix.diagonal.resize(n_coarse);
     coarse_modes.resize(36 * static_cast<std::size_t>(n_coarse));
   }

@@ -15,6 +15,8 @@ namespace Supple
     // What remains of a motion beside the others, at the least, to count as another one.
     constexpr double independent = 1e-6;
 
+    constexpr std::ptrdiff_t lead = 1024; // numbers of P between those in use and those asked for
+
 
     /** Makes the columns of Q orthonormal, Q R = old Q; those that depend on others become zero. */
     void
@@ -356,7 +358,8 @@ namespace Supple
         for (std::uint32_t q = row_start[node]; q < row_start[node + 1]; ++q)
           {
             const std::int16_t *rows = &values[6 * B * std::size_t(q)];
-            Lanes<float, 6> sum      = load_converted<float>(rows) * factor[0];
+            __builtin_prefetch(rows + lead);
+            Lanes<float, 6> sum = load_converted<float>(rows) * factor[0];
             for (unsigned int i = 1; i < B; ++i)
               sum += load_converted<float>(rows + 6 * i) * factor[i];
             coarse[column[q]].lanes += sum;
@@ -381,7 +384,8 @@ namespace Supple
         Lanes<float, 6> sums[B]{};
         for (std::uint32_t q = row_start[node]; q < row_start[node + 1]; ++q)
           {
-            const std::int16_t *rows      = &values[6 * B * std::size_t(q)];
+            const std::int16_t *rows = &values[6 * B * std::size_t(q)];
+            __builtin_prefetch(rows + lead);
             const Lanes<float, 6> unknown = coarse[column[q]].lanes;
             for (unsigned int i = 0; i < B; ++i)
               sums[i] += load_converted<float>(rows + 6 * i) * unknown;

@@ -76,6 +76,47 @@ namespace Supple
     }
 
 
+    /**
+     * A process without any cell gets one, or one patch, from the process that has most of them:
+     * METIS leaves parts empty where there are few cells for each, and deal.II's mesh fails there.
+     */
+    template <int dim>
+    void
+    fill_empty_parts(const SerialMesh &mesh,
+                     const unsigned int n_processes,
+                     Triangulation<dim, 3> &serial)
+    {
+      using CellIterator = typename Triangulation<dim, 3>::active_cell_iterator;
+      std::map<unsigned int, std::vector<CellIterator>> pieces; // cells, or the cells of a patch
+      for (const auto &cell : serial.active_cell_iterators())
+        {
+          const unsigned int number = cell->id().get_coarse_cell_id();
+          pieces[mesh.patches.empty() ? number : mesh.patches[number]].push_back(cell);
+        }
+      if (pieces.size() < n_processes)
+        throw InputError(std::to_string(n_processes) + " processes are too many for " +
+                         std::to_string(pieces.size()) +
+                         (mesh.patches.empty() ? " cells" : " patches of cells") +
+                         ": each of them needs one.");
+
+      std::vector<std::vector<unsigned int>> pieces_of(n_processes);
+      for (const auto &[piece, cells] : pieces)
+        pieces_of[cells.front()->subdomain_id()].push_back(piece);
+      for (unsigned int process = 0; process < n_processes; ++process)
+        if (pieces_of[process].empty())
+          {
+            auto &most =
+              *std::max_element(pieces_of.begin(),
+                                pieces_of.end(),
+                                [](const auto &a, const auto &b) { return a.size() < b.size(); });
+            for (const CellIterator &cell : pieces[most.back()])
+              cell->set_subdomain_id(process);
+            pieces_of[process].push_back(most.back());
+            most.pop_back();
+          }
+    }
+
+
     /** deal.II's mesh on one process, each cell with the number of the process that shall own it.
      */
     template <int dim>
@@ -94,13 +135,7 @@ namespace Supple
       GridTools::partition_triangulation(n_processes, serial, SparsityTools::Partitioner::metis);
       if (!mesh.patches.empty())
         unite_patches(mesh, serial);
-      std::vector<unsigned int> cells_of(n_processes);
-      for (const auto &cell : serial.active_cell_iterators())
-        ++cells_of[cell->subdomain_id()];
-      if (*std::min_element(cells_of.begin(), cells_of.end()) == 0)
-        throw InputError(std::to_string(n_processes) + " processes are too many for " +
-                         std::to_string(mesh.cells.size()) +
-                         " cells: one of them would have none.");
+      fill_empty_parts(mesh, n_processes, serial);
     }
 
 

@@ -1,12 +1,8 @@
-#include <supple/error.h>
+#include <supple/iterative_solver.h>
 #include <supple/multigrid.h>
-#include <supple/patch_solver.h>
-
-#include <deal.II/lac/solver_cg.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace Supple
 {
@@ -124,13 +120,11 @@ namespace Supple
      * not come forward, since the matrix is too badly conditioned for single precision, it is the
      * preconditioner alone that stays in it.
      */
-    class AmgSolver : public LinearSolver
+    class AmgSolver : public IterativeSolver
     {
     public:
       AmgSolver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort)
-        : LinearSolver(A, parameters, effort)
-        , preconditioning_matrix(A)
-        , patch_system(make_patch_system(A))
+        : IterativeSolver(A, parameters, effort)
         , multigrid(preconditioning_matrix.get(), A.body.partitioner)
         , n_owned(A.body.n_owned)
         , correction(A.body.n_local)
@@ -151,9 +145,7 @@ namespace Supple
       void
       do_prepare(const Vector &displacement) override
       {
-        preconditioning_matrix.update();
-        if (patch_system)
-          patch_system->update(preconditioning_matrix.get());
+        update_matrices();
         if (built && !rule.due())
           {
             multigrid.refresh_finest();
@@ -169,32 +161,32 @@ namespace Supple
         ++effort.hierarchies;
       }
 
-      /** Three translations and three rotations of the deformed body at each node. */
+      /** None where the body is held. */
       void
       find_rigid_motions(const Vector &displacement)
       {
-        const Point<3> center = A.body.mesh.bounding_box.center();
         rigid_motions.assign(18 * static_cast<std::size_t>(n_owned), 0.);
-        for (std::size_t node = 0; node < n_owned; ++node)
-          for (unsigned int i = 0; i < 3; ++i)
+        for (std::size_t dof = 0; dof < 3 * n_owned; ++dof)
+          if (!A.constraints.holds(dof))
             {
-              if (A.constraints.holds(3 * node + i))
-                continue;
-              const unsigned int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-              const auto x = [&](const unsigned int d) {
-                return (A.body.positions[node][d] + displacement.local_element(3 * node + d) -
-                        center[d]) /
-                       A.body.mesh.diameter();
-              };
-              double *const motions = &rigid_motions[6 * (3 * node + i)];
-              motions[i]            = 1.;
-              motions[3 + i1]       = x(i2);
-              motions[3 + i2]       = -x(i1);
+              const std::array<double, 6> motions = rigid_motions_at(dof, displacement);
+              std::copy(motions.begin(), motions.end(), &rigid_motions[6 * dof]);
             }
       }
 
       unsigned int
       do_solve(Vector &x, const Vector &b, Vector &residual) override
+      {
+        const unsigned int n_iterations =
+          A.body.patches ? solve_from_zero(x, b, residual, DoublePrecision(multigrid, r, z))
+                         : solve_in_single_precision(x, b, residual);
+        rule.solved(n_iterations);
+        return n_iterations;
+      }
+
+      /** As far as that comes. */
+      unsigned int
+      solve_in_single_precision(Vector &x, const Vector &b, Vector &residual)
       {
         const double size = b.l2_norm(), goal = parameters.tolerance * size;
         double norm               = size;
@@ -202,11 +194,7 @@ namespace Supple
         last_curvature            = 0.;
         x                         = 0.;
         residual                  = b;
-        if (patch_system)
-          n_iterations = patch_system->solve(
-            x, b, residual, DoublePrecision(multigrid, r, z), parameters, name());
-        const bool whole = !A.body.patches; // the multigrid's finest matrix is A
-        while (whole && norm > goal && reduction <= smallest_reduction)
+        while (norm > goal && reduction <= smallest_reduction)
           {
             const double before = norm;
             const double aim    = std::max(reduction * norm, std::min(0.9 * goal, 0.5 * norm));
@@ -221,9 +209,8 @@ namespace Supple
                 norm = set_residual(residual, x, b);
               }
           }
-        if (!patch_system && norm > goal)
-          n_iterations += solve_in_double_precision(x, b, residual);
-        rule.solved(n_iterations);
+        if (norm > goal)
+          n_iterations += iterate(x, b, residual, DoublePrecision(multigrid, r, z));
         return n_iterations;
       }
 
@@ -295,31 +282,6 @@ namespace Supple
         return multigrid.halo.single() ? part : Utilities::MPI::sum(part, A.body.mesh.communicator);
       }
 
-      /** Goes on from x. */
-      unsigned int
-      solve_in_double_precision(Vector &x, const Vector &b, Vector &residual)
-      {
-        const double size = b.l2_norm();
-        SolverControl control(parameters.iteration_limit, parameters.tolerance * size);
-        SolverCG<Vector> cg(control, memory);
-        try
-          {
-            cg.solve(A, x, b, DoublePrecision(multigrid, r, z));
-          }
-        catch (const SolverControl::NoConvergence &)
-          {
-            std::ostringstream text;
-            text << "conjugate gradients (" << name() << ") did not reach the relative residual "
-                 << parameters.tolerance << " in " << control.last_step()
-                 << " iterations; they got to " << control.last_value() / size;
-            throw ComputationError(text.str());
-          }
-        set_residual(residual, x, b);
-        return control.last_step();
-      }
-
-      PreconditioningMatrix preconditioning_matrix;
-      std::unique_ptr<PatchSystem> patch_system; ///< null where A itself is solved
       Multigrid multigrid;
       RefreshRule rule;
       bool built       = false;
@@ -329,7 +291,6 @@ namespace Supple
       NodeVector correction, r, z, p, q;
       double last_rho       = 0.; ///< r.z of the last iteration
       double last_curvature = 0.; ///< p.q of the last iteration
-      GrowingVectorMemory<Vector> memory;
     };
   } // namespace
 

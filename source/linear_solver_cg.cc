@@ -1,8 +1,6 @@
-#include <supple/error.h>
-#include <supple/patch_solver.h>
+#include <supple/iterative_solver.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
@@ -10,7 +8,6 @@
 
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
-#include <sstream>
 
 namespace Supple
 {
@@ -20,57 +17,25 @@ namespace Supple
   {
     /** Conjugate gradients with our own product; what remains is the preconditioner. */
     template <class Preconditioner>
-    class ConjugateGradients : public LinearSolver
+    class ConjugateGradients : public IterativeSolver
     {
     public:
       ConjugateGradients(const ImplicitOperator &A,
                          const SolverParameters &parameters,
                          Effort &effort)
-        : LinearSolver(A, parameters, effort)
-        , preconditioning_matrix(A)
-        , patch_system(make_patch_system(A))
+        : IterativeSolver(A, parameters, effort)
       {
       }
 
     protected:
-      void
-      update_preconditioning_matrix()
-      {
-        preconditioning_matrix.update();
-        if (patch_system)
-          patch_system->update(preconditioning_matrix.get());
-      }
-
-      PreconditioningMatrix preconditioning_matrix;
       Preconditioner preconditioner;
 
     private:
       unsigned int
       do_solve(Vector &x, const Vector &b, Vector &residual) override
       {
-        if (patch_system)
-          return patch_system->solve(x, b, residual, preconditioner, parameters, name());
-        SolverControl control(parameters.iteration_limit, parameters.tolerance * b.l2_norm());
-        SolverCG<Vector> cg(control, memory);
-        try
-          {
-            x = 0.;
-            cg.solve(A, x, b, preconditioner);
-          }
-        catch (const SolverControl::NoConvergence &)
-          {
-            std::ostringstream text;
-            text << "conjugate gradients (" << name() << ") did not reach the relative residual "
-                 << parameters.tolerance << " in " << control.last_step()
-                 << " iterations; they got to " << control.last_value() / b.l2_norm();
-            throw ComputationError(text.str());
-          }
-        set_residual(residual, x, b);
-        return control.last_step();
+        return solve_from_zero(x, b, residual, preconditioner);
       }
-
-      std::unique_ptr<PatchSystem> patch_system; ///< null where A itself is solved
-      GrowingVectorMemory<Vector> memory;
     };
 
 
@@ -122,7 +87,7 @@ namespace Supple
       void
       do_prepare(const Vector &) override
       {
-        update_preconditioning_matrix();
+        update_matrices();
         preconditioner.initialize(preconditioning_matrix.get());
       }
     };
@@ -224,38 +189,24 @@ namespace Supple
       void
       find_rigid_motions(const Vector &displacement)
       {
-        const unsigned int n        = 3 * A.body.n_owned;
-        const Point<3> center       = A.body.mesh.bounding_box.center();
-        constexpr unsigned int none = numbers::invalid_unsigned_int;
-        const bool plane            = A.body.mesh.section.plane();
-        const std::array<unsigned int, 6> place =
-          plane ? std::array<unsigned int, 6>{{0, 1, none, none, none, 2}}
-                : std::array<unsigned int, 6>{{0, 1, 2, 3, 4, 5}};
-        n_rigid_motions = plane ? 3 : 6;
-        rigid_motions.assign(n_rigid_motions * n, 0.);
-        for (unsigned int node = 0; node < A.body.n_owned; ++node)
-          for (unsigned int i = 0; i < 3; ++i)
-            {
-              const unsigned int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-              const auto x = [&](const unsigned int d) {
-                return (A.body.positions[node][d] + displacement.local_element(3 * node + d) -
-                        center[d]) /
-                       A.body.mesh.diameter();
-              };
-              const auto set = [&](const unsigned int motion, const double value) {
-                if (place[motion] != none)
-                  rigid_motions[place[motion] * n + 3 * node + i] = value;
-              };
-              set(i, 1.);
-              set(3 + i1, x(i2));
-              set(3 + i2, -x(i1));
-            }
+        using Places         = std::vector<unsigned int>;
+        const unsigned int n = 3 * A.body.n_owned;
+        const Places included =
+          A.body.mesh.section.plane() ? Places{0, 1, 5} : Places{0, 1, 2, 3, 4, 5};
+        n_rigid_motions = included.size();
+        rigid_motions.resize(n_rigid_motions * n);
+        for (unsigned int dof = 0; dof < n; ++dof)
+          {
+            const std::array<double, 6> motions = rigid_motions_at(dof, displacement);
+            for (unsigned int k = 0; k < n_rigid_motions; ++k)
+              rigid_motions[k * n + dof] = motions[included[k]];
+          }
       }
 
       void
       do_prepare(const Vector &displacement) override
       {
-        update_preconditioning_matrix();
+        update_matrices();
         copy_values();
         find_rigid_motions(displacement);
 

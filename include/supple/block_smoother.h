@@ -83,7 +83,8 @@ namespace Supple
     std::vector<NodeValues<B>> inverse;  ///< D^-1 with what is added to D
 
   private:
-    /** The sum of L_ij x_j over a row. */
+    /** The sum of L_ij x_j over a row, in a sweep that goes on or, with -1, back. */
+    template <int direction>
     Lanes<float, B>
     row_product(std::size_t row, const NodeValues<B> *x) const;
 

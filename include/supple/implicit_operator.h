@@ -43,7 +43,8 @@ namespace Supple
     void
     mass_vmult(Vector &y, const Vector &x) const;
 
-    /** y = K' x, from the cells, with what rotations add. */
+    /** y = K' x with what rotations add: that of A if it can be taken from there, with x = 0 where
+     * the body is held; otherwise from the cells. */
     void
     stiffness_vmult(Vector &y, const Vector &x) const;
 
