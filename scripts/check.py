@@ -19,7 +19,7 @@ SCOPE = re.compile(r"\s*(inline )?(namespace|struct|class|enum|union|extern)\b")
 
 def files():
     """Those of the repository and those about to be, without what others or programs wrote."""
-    listed = subprocess.run(["git", "-C", ROOT, "ls-files", "-co", "--exclude-standard"],
+    listed = subprocess.run(["git", "-c", f"safe.directory={ROOT}", "-C", ROOT, "ls-files", "-co", "--exclude-standard"],
                             capture_output=True, text=True, check=True).stdout
     paths = [ROOT / name for name in listed.split("\n") if name]
     return sorted(path for path in paths if path.is_file() and path.suffix not in NO_TEXT

@@ -3,7 +3,6 @@
 #include <supple/interrupt.h>
 #include <supple/output_folder.h>
 #include <supple/progress.h>
-#include <supple/report.h>
 #include <supple/tables.h>
 
 #include <algorithm>

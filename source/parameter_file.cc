@@ -1,8 +1,5 @@
 #include <supple/error.h>
-#include <supple/identification_parameters.h>
 #include <supple/parameter_file.h>
-#include <supple/parameters.h>
-#include <supple/study_parameters.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -277,110 +274,5 @@ namespace Supple
     if (found == places.end())
       return entry + " (not set in the scene)";
     return found->second + ": " + entry + " = " + values.at(entry);
-  }
-
-
-  Parameters
-  Parameters::read(const std::string &file, const std::vector<Override> &overrides)
-  {
-    Parameters parameters;
-    ParameterHandler prm;
-    parameters.declare(prm);
-    parameters.file         = ParameterFile(file);
-    parameters.scene_name   = parameters.file.name();
-    parameters.scene_folder = parameters.file.folder();
-    parameters.file.parse(prm, overrides);
-
-    std::ostringstream used;
-    prm.print_parameters(used, ParameterHandler::PRM);
-    parameters.as_used = used.str();
-
-    parameters.check();
-    return parameters;
-  }
-
-
-  std::string
-  Parameters::output_folder() const
-  {
-    return output.folder.empty() ? "output/" + scene_name : output.folder;
-  }
-
-
-  std::string
-  Parameters::origin(const std::string &entry) const
-  {
-    return file.origin(entry);
-  }
-
-
-  void
-  Parameters::print(std::ostream &out) const
-  {
-    out << as_used;
-  }
-
-
-  void
-  Parameters::print_reference(std::ostream &out, const std::string &format)
-  {
-    Parameters parameters;
-    StudyParameters study;
-    IdentificationParameters identification;
-    ParameterHandler scene_entries, study_entries, identification_entries;
-    parameters.declare(scene_entries);
-    study.declare(study_entries);
-    identification.declare(identification_entries);
-    if (format == "json")
-      {
-        study.declare(scene_entries);
-        identification.declare(scene_entries);
-        scene_entries.print_parameters(out, ParameterHandler::JSON);
-        return;
-      }
-    scene_entries.print_parameters(out, ParameterHandler::PRM);
-
-    // What is printed stays a scene.
-    const std::vector<std::pair<std::string, ParameterHandler *>> others = {
-      {"A study", &study_entries}, {"An identification", &identification_entries}};
-    for (const auto &[name, entries] : others)
-      {
-        out << "\n# " << name << " is a file of its own, with this subsection alone:\n";
-        std::stringstream text;
-        entries->print_parameters(text, ParameterHandler::PRM);
-        std::string line;
-        while (std::getline(text, line))
-          out << (line.empty() ? "" : "# ") << line << '\n';
-      }
-  }
-
-
-  std::vector<std::pair<std::string, std::string>>
-  named_list(const std::string &text, const std::string &origin)
-  {
-    std::vector<std::pair<std::string, std::string>> list;
-    for (const std::string &item : dealii::Utilities::split_string_list(text, ';'))
-      {
-        if (item.empty())
-          continue;
-        std::smatch found;
-        if (!std::regex_match(item, found, std::regex("([A-Za-z_][A-Za-z_0-9]*)\\s*:\\s*(.+)")))
-          throw InputError(origin + ": '" + item +
-                           "' is not of the form name: value (a name has letters, digits and _).");
-        for (const auto &[name, value] : list)
-          if (name == found[1])
-            throw InputError(origin + ": the name '" + name + "' is given twice.");
-        list.emplace_back(found[1], found[2]);
-      }
-    return list;
-  }
-
-
-  unsigned int
-  boundary_id(const std::string &text, const std::string &origin)
-  {
-    if (text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
-      throw InputError(origin + ": '" + text + "' is no boundary id.");
-    return std::stoul(text);
   }
 } // namespace Supple

@@ -6,6 +6,9 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <regex>
+#include <sstream>
+
 namespace Supple
 {
   using dealii::ParameterHandler;
@@ -453,5 +456,76 @@ namespace Supple
         !Expression(start.velocity, 3, origin("Start/Velocity")).is_zero())
       throw InputError(origin("Start/Velocity") +
                        ": a static problem knows no velocity; it must be 0; 0; 0.");
+  }
+
+
+  Parameters
+  Parameters::read(const std::string &file, const std::vector<Override> &overrides)
+  {
+    Parameters parameters;
+    ParameterHandler prm;
+    parameters.declare(prm);
+    parameters.file         = ParameterFile(file);
+    parameters.scene_name   = parameters.file.name();
+    parameters.scene_folder = parameters.file.folder();
+    parameters.file.parse(prm, overrides);
+
+    std::ostringstream used;
+    prm.print_parameters(used, ParameterHandler::PRM);
+    parameters.as_used = used.str();
+
+    parameters.check();
+    return parameters;
+  }
+
+
+  std::string
+  Parameters::output_folder() const
+  {
+    return output.folder.empty() ? "output/" + scene_name : output.folder;
+  }
+
+
+  std::string
+  Parameters::origin(const std::string &entry) const
+  {
+    return file.origin(entry);
+  }
+
+
+  void
+  Parameters::print(std::ostream &out) const
+  {
+    out << as_used;
+  }
+
+
+  std::vector<std::pair<std::string, std::string>>
+  named_list(const std::string &text, const std::string &origin)
+  {
+    std::vector<std::pair<std::string, std::string>> list;
+    for (const std::string &item : dealii::Utilities::split_string_list(text, ';'))
+      {
+        if (item.empty())
+          continue;
+        std::smatch found;
+        if (!std::regex_match(item, found, std::regex("([A-Za-z_][A-Za-z_0-9]*)\\s*:\\s*(.+)")))
+          throw InputError(origin + ": '" + item +
+                           "' is not of the form name: value (a name has letters, digits and _).");
+        for (const auto &[name, value] : list)
+          if (name == found[1])
+            throw InputError(origin + ": the name '" + name + "' is given twice.");
+        list.emplace_back(found[1], found[2]);
+      }
+    return list;
+  }
+
+
+  unsigned int
+  boundary_id(const std::string &text, const std::string &origin)
+  {
+    if (text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
+      throw InputError(origin + ": '" + text + "' is no boundary id.");
+    return std::stoul(text);
   }
 } // namespace Supple

@@ -1,16 +1,9 @@
-#include <supple/error.h>
-#include <supple/identification_table.h>
 #include <supple/report.h>
-#include <supple/study_table.h>
-#include <supple/tables.h>
-
-#include <deal.II/base/utilities.h>
+#include <supple/report_page.h>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -19,8 +12,6 @@
 
 namespace Supple
 {
-  using Json = nlohmann::ordered_json;
-
   namespace
   {
     const std::size_t most_surface_bytes = 6'000'000; // a third more in the page
@@ -107,20 +98,6 @@ namespace Supple
     }
 
 
-    /** With the seven digits that a picture needs; null for what is no number. */
-    Json
-    brief_number(const double value)
-    {
-      if (!std::isfinite(value))
-        return nullptr;
-      if (value == std::round(value) && std::abs(value) < 1e7)
-        return static_cast<long>(value);
-      char text[32];
-      std::snprintf(text, sizeof(text), "%.7g", value);
-      return std::strtod(text, nullptr);
-    }
-
-
     Json
     to_json(const Table &table, const std::set<std::size_t> &rows)
     {
@@ -160,33 +137,6 @@ namespace Supple
           tables[file.stem().string()] = to_json(table, rows_of_telling_steps(table));
         }
       return tables;
-    }
-
-
-    void
-    replace(std::string &text, const std::string &mark, const std::string &content)
-    {
-      const std::size_t place = text.find(mark);
-      if (place == std::string::npos)
-        throw WriteError("The report page has no place for " + mark + ".");
-      text.replace(place, mark.size(), content);
-    }
-
-
-    /** The page with its data; in a script, "</" would end it. */
-    void
-    write_page(const std::string &folder,
-               const Json &data,
-               const std::vector<unsigned char> &surface)
-    {
-      std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace), safe;
-      safe.reserve(text.size());
-      for (const char c : text)
-        safe += c == '<' ? "\\u003c" : std::string(1, c);
-      std::string page = report_page;
-      replace(page, "SUPPLE_SURFACE", dealii::Utilities::encode_base64(surface));
-      replace(page, "SUPPLE_DATA", safe);
-      write_whole_file(folder + "/report.html", page);
     }
 
 
@@ -234,66 +184,5 @@ namespace Supple
         surface                   = packed.bytes;
       }
     write_page(folder, data, surface);
-  }
-
-
-  void
-  write_report(const std::string &folder, const StudyTable &table)
-  {
-    Json rows = Json::array();
-    for (const StudyRow &row : table.rows)
-      rows.push_back({{"label", row.run.label()},
-                      {"curve", row.run.curve},
-                      {"seconds", brief_number(row.seconds)},
-                      {"size", brief_number(row.size)},
-                      {"error", brief_number(row.error())},
-                      {"front", row.on_front},
-                      {"done", row.status == StudyRecord::Status::done}});
-    write_page(folder,
-               {{"kind", "study"},
-                {"name", table.name},
-                {"by_step", table.kind == StudyPlan::Kind::methods},
-                {"cases", table.kind == StudyPlan::Kind::cases},
-                {"facts", table.facts},
-                {"sentences", table.sentences()},
-                {"rows", rows},
-                {"csv", table.csv()},
-                {"version", SUPPLE_VERSION}},
-               {});
-  }
-
-
-  void
-  write_report(const std::string &folder, const IdentificationTable &table)
-  {
-    Json profiles = Json::array();
-    for (std::size_t set = 0; set < table.best_profiles.size(); ++set)
-      {
-        Json profile = {{"set", table.set_numbers[set]},
-                        {"pair", table.words(table.best_of_set(set).pair)},
-                        {"distances", Json::array()},
-                        {"measured", Json::array()},
-                        {"computed", Json::object()}};
-        for (const ComparedPoint &point : table.best_profiles[set])
-          {
-            profile["distances"].push_back(brief_number(point.distance / table.unit_length));
-            profile["measured"].push_back(brief_number(point.measured / table.unit_length));
-            for (std::size_t side = 0; side < table.side_names.size(); ++side)
-              profile["computed"][table.side_names[side]].push_back(
-                brief_number(point.computed[side] / table.unit_length));
-          }
-        profiles.push_back(profile);
-      }
-    write_page(folder,
-               {{"kind", "identification"},
-                {"name", table.name},
-                {"unit", table.unit},
-                {"sets", table.set_numbers},
-                {"facts", table.facts},
-                {"sentences", table.sentences()},
-                {"csv", table.csv()},
-                {"profiles", profiles},
-                {"version", SUPPLE_VERSION}},
-               {});
   }
 } // namespace Supple

@@ -5,7 +5,6 @@
 #include <supple/interrupt.h>
 #include <supple/output_folder.h>
 #include <supple/progress.h>
-#include <supple/report.h>
 #include <supple/tables.h>
 
 #include <deal.II/base/mpi.h>

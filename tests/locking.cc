@@ -255,23 +255,6 @@ namespace
   }
 
 
-  /** A pattern that couples every node with every other. */
-  SymmetricPattern
-  full_pattern(const unsigned int n_nodes)
-  {
-    SymmetricPattern pattern;
-    pattern.n_owned = pattern.n_local = n_nodes;
-    pattern.row_start.push_back(0);
-    for (unsigned int i = 0; i < n_nodes; ++i)
-      {
-        for (unsigned int j = 0; j < i; ++j)
-          pattern.column.push_back(j);
-        pattern.row_start.push_back(pattern.column.size());
-      }
-    return pattern;
-  }
-
-
   /** Column by column, without z in the plane. */
   template <class Product>
   Eigen::MatrixXd

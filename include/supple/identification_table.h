@@ -105,6 +105,12 @@ namespace Supple
    */
   std::string
   plot_identification(const IdentificationTable &table, const std::string &folder);
+
+
+  /** Writes report.html: heat maps of the errors, the best profiles, the table. @throws WriteError
+   */
+  void
+  write_report(const std::string &folder, const IdentificationTable &table);
 } // namespace Supple
 
 #endif

@@ -64,12 +64,6 @@ namespace Supple
       return factor;
     }
 
-    unsigned int
-    n_levels() const
-    {
-      return levels.size() + 1;
-    }
-
     const Halo halo;
 
   private:

@@ -8,13 +8,6 @@
 
 namespace Supple
 {
-  struct IdentificationTable;
-  struct StudyTable;
-
-  /** The page without its data, as scripts/build-report.sh makes it of source/report. */
-  extern const char report_page[];
-
-
   /**
    * Writes report.html, the page of a run that needs no network: from the tables in the folder, the
    * film, the summary and the parameters. Where there is more than a page can show, tables are
@@ -29,17 +22,6 @@ namespace Supple
                const Parameters &parameters,
                const std::string &summary,
                const Film *film);
-
-
-  /** The same of a study: its table, and a plot of error against run time. @throws WriteError */
-  void
-  write_report(const std::string &folder, const StudyTable &table);
-
-
-  /** The same of an identification: heat maps of the errors, and the best profiles. @throws
-   * WriteError */
-  void
-  write_report(const std::string &folder, const IdentificationTable &table);
 } // namespace Supple
 
 #endif

@@ -94,6 +94,11 @@ namespace Supple
    */
   std::string
   plot_study(const StudyTable &table, const std::string &folder);
+
+
+  /** Writes report.html: the table, and plots of error against run time. @throws WriteError */
+  void
+  write_report(const std::string &folder, const StudyTable &table);
 } // namespace Supple
 
 #endif

@@ -4,6 +4,8 @@
 // What the compiled tests share: their outputs tell a limit and not the value, which differs from
 // machine to machine.
 
+#include <supple/block_matrix.h>
+
 #include <cmath>
 #include <cstdio>
 #include <vector>
@@ -36,6 +38,23 @@ norm(const Nodal &v)
   for (const double x : v)
     sum += x * x;
   return std::sqrt(sum);
+}
+
+
+/** A pattern that couples every node with every other. */
+inline Supple::SymmetricPattern
+full_pattern(const unsigned int n_nodes)
+{
+  Supple::SymmetricPattern pattern;
+  pattern.n_owned = pattern.n_local = n_nodes;
+  pattern.row_start.push_back(0);
+  for (unsigned int i = 0; i < n_nodes; ++i)
+    {
+      for (unsigned int j = 0; j < i; ++j)
+        pattern.column.push_back(j);
+      pattern.row_start.push_back(pattern.column.size());
+    }
+  return pattern;
 }
 
 #endif
