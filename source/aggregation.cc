@@ -51,13 +51,13 @@ namespace Supple
       const std::uint32_t *
       begin(const std::uint32_t node) const
       {
-        return &neighbor[start[node]];
+        return neighbor.data() + start[node];
       }
 
       const std::uint32_t *
       end(const std::uint32_t node) const
       {
-        return &neighbor[start[node + 1]];
+        return neighbor.data() + start[node + 1];
       }
 
       bool

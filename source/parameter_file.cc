@@ -9,6 +9,7 @@
 #include <regex>
 #include <set>
 #include <sstream>
+#include <utility>
 
 namespace Supple
 {
@@ -125,7 +126,7 @@ namespace Supple
       for (unsigned int number = 1; std::getline(lines, line); ++number)
         {
           const std::string place = file + ":" + std::to_string(number);
-          joined += line;
+          joined += line          = dealii::Utilities::trim(line);
           require_short_line(joined.size(), place);
           if (!line.empty() && line.back() == '\\')
             {
@@ -133,12 +134,10 @@ namespace Supple
               continue;
             }
           std::replace(joined.begin(), joined.end(), '\t', ' ');
-          const std::string trimmed = dealii::Utilities::trim(joined);
-          joined.clear();
-          if (trimmed.rfind("include ", 0) != 0 && trimmed.rfind("INCLUDE ", 0) != 0)
+          const std::string whole = std::exchange(joined, "");
+          if (whole.rfind("include ", 0) != 0 && whole.rfind("INCLUDE ", 0) != 0)
             continue;
-          const std::string next =
-            dealii::Utilities::trim(trimmed.substr(8, trimmed.find('#') - 8));
+          const std::string next = dealii::Utilities::trim(whole.substr(8, whole.find('#') - 8));
           const std::string included =
             content_of(next, place + ": there is no file " + next + ", or it can't be read.");
           auto chain = including;

@@ -74,7 +74,7 @@ status, output, _ = runner.run(runner.BAR, "--output", folder / "loud")
 runner.check("done: 100 steps" in output and "\r" not in output, output)
 
 # Where results go by default, and by the scene.
-here = subprocess.run([runner.SUPPLE, str(runner.BAR), "--quiet"], env=runner.ENVIRONMENT, cwd=folder, timeout=100)
+here = subprocess.run([runner.SUPPLE, str(runner.BAR), "--quiet"], env=runner.ENVIRONMENT, cwd=folder, timeout=100 * runner.PATIENCE)
 runner.check(here.returncode == 0 and (folder / "output" / "large" / "summary.json").exists(), "output/large")
 status, _, _ = runner.run(runner.BAR, "--quiet", "--set", f"Output/Folder={folder}/named")
 runner.check(status == 0 and (folder / "named" / "summary.json").exists(), "Output/Folder")
@@ -89,7 +89,7 @@ for sent in [signal.SIGINT, signal.SIGTERM]:
         runner.check(process.poll() is None, "it ended by itself")
         time.sleep(0.05)
     os.kill(process.pid, sent)
-    _, error = process.communicate(timeout=60)
+    _, error = process.communicate(timeout=60 * runner.PATIENCE)
     runner.check(process.returncode == 2 and "Interrupted after step" in error, f"{process.returncode} {error}")
     stopped = runner.Results(folder / "interrupted")
     summary = stopped.summary()
@@ -136,7 +136,7 @@ while not (folder / "gone" / "solution" / "frame_0005.vtu").exists():
     runner.check(process.poll() is None, "it ended by itself")
     time.sleep(0.05)
 (folder / "gone" / "solution").rename(folder / "elsewhere")
-_, error = process.communicate(timeout=60)
+_, error = process.communicate(timeout=60 * runner.PATIENCE)
 runner.check(process.returncode == 2 and "After step" in error and "can't be written" in error, error)
 for frame in (folder / "elsewhere").glob("*.vtu"):
     runner.check(frame.read_bytes().rstrip().endswith(b"</VTKFile>"), f"{frame.name} is half written")

@@ -150,33 +150,50 @@ class ParameterText(Text):
     def __init__(self, chance, known, values):
         super().__init__(chance)
         self.known = known      # (section, name, default) of all entries
-        self.values = values    # that the scenes set
+        self.values = values    # that the scenes set, for each name
 
-    def value(self):
-        kind = self.chance.randrange(6)
+    def expression(self, depth=0):
+        if depth > 3 or self.chance.random() < 0.3:
+            return self.chance.choice(["x", "y", "z", "t", "pi", "0", "1", "-1", "1e300", "0.5", "q", "1e-300"])
+        inner = [self.expression(depth + 1) for _ in range(3)]
+        return self.chance.choice(["{0} + {1}", "{0}*{1}", "{0}/{1}", "{0}^{1}", "({0} < {1})", "{0} && {1}", "sqrt({0})", "log({0})", "sin({0})",
+                                   "if({0}, {1}, {2})", "min({0}, {1})", "-{0}", "({0})", "{0} > {1} || {2}", "rand_seed({0})", "tan({0}"]).format(*inner)
+
+    def value(self, name=""):
+        """Any value, or one that almost fits the entry."""
+        kind = self.chance.randrange(9)
         if kind == 0:
             return self.chance.choice(WORDS)
         if kind == 1:
-            return self.chance.choice([", ", "; ", " "]).join(self.number().decode() for _ in range(self.chance.randrange(1, 6)))
+            count = self.chance.choice([1, 2, 3, 3, 3, 4, 50])
+            return self.chance.choice([", ", "; ", " "]).join(self.number().decode() for _ in range(count))
         if kind == 2:
-            return self.chance.choice(self.values)
+            return "; ".join(self.expression() for _ in range(self.chance.choice([1, 3])))
         if kind == 3:
-            depth = self.chance.choice([3, 500, 20000])
+            depth = self.chance.choice([3, 100, 900])
             return self.chance.choice(["(" * depth, "(" * depth + "x" + ")" * depth, "-" * depth + "1", "sin(" * depth, "1+" * depth + "1"])
-        return self.number().decode()
+        if kind == 4:
+            return self.number().decode()
+        # What a scene says there, or elsewhere, with a change.
+        value = self.chance.choice(self.values.get(name) or self.chance.choice(list(self.values.values())))
+        change = self.chance.choice([self.replace_number, self.replace_number, self.replace_word, self.delete_brace, self.duplicate, self.insert])
+        return change(value.encode()).decode(errors="replace").replace("\n", " ")
 
     def set_value(self, data):
         """Another value for an entry the scene has."""
-        places = list(re.finditer(rb"(?m)^\s*set [^=\n]*=(.*)$", data))
+        places = list(re.finditer(rb"(?m)^\s*set ([^=\n]*?)\s*=(.*)$", data))
         if not places:
             return self.add_entry(data)
         place = self.chance.choice(places)
-        return data[:place.start(1)] + b" " + self.value().encode() + data[place.end(1):]
+        value = self.value(place[1].decode(errors="replace"))
+        return data[:place.start(2)] + b" " + value.encode() + data[place.end(2):]
 
     def add_entry(self, data):
-        """An entry that the scene has not, or had otherwise."""
-        section, name, default = self.chance.choice(self.known)
-        value = self.chance.choice([default, self.value(), self.value()])
+        """An entry that the scene has not, or had otherwise. Studies and identifications have a section alone."""
+        alone = [section for section in ("Study", "Identification") if f"subsection {section}\n".encode() in data]
+        section, name, default = self.chance.choice([entry for entry in self.known if entry[0] in alone or
+                                                     not alone and entry[0] not in ("Study", "Identification")])
+        value = self.chance.choice([default, self.value(name), self.value(name)])
         return data + f"\nsubsection {section}\n  set {name} = {value}\nend\n".encode()
 
     def unknown(self, data):
@@ -189,7 +206,7 @@ class ParameterText(Text):
         return b"subsection Mesh\n" * depth + data + b"end\n" * self.chance.choice([0, depth])
 
     def mutate_all(self, data):
-        return self.mutate(data, self.anywhere() + 4 * [self.set_value, self.add_entry] + [self.unknown, self.nest])
+        return self.mutate(data, self.anywhere() + 12 * [self.set_value, self.add_entry] + [self.unknown, self.nest])
 
 
 class Binary(Text):
@@ -214,7 +231,10 @@ class Corpus:
         self.scenes = [path for path in sorted((folder / "parameters").rglob("*.prm")) if path.stem not in SLOW]
         self.meshes = sorted((runner.DATA / "meshes").iterdir())
         self.known = entries()
-        self.values = sorted({match[1] for path in self.scenes for match in re.finditer(r"set [^=\n]*= *([^#\n]*)", path.read_text())})
+        self.values = {}
+        for path in self.scenes:
+            for match in re.finditer(r"set ([^=\n]*?)\s*= *([^#\n]*)", path.read_text()):
+                self.values.setdefault(match[1], []).append(match[2])
 
     def mutant(self, part, seed, number):
         """Writes a mutant; gives the scene to check and the file that is damaged."""

@@ -13,6 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 DATA = ROOT / "tests" / "data"
 BAR = ROOT / "parameters" / "bar" / "large.prm"
 STATIC = ROOT / "parameters" / "bar" / "static.prm"
+PATIENCE = float(os.environ.get("SUPPLE_PATIENCE", 1))    # more than 1 for a build that is slow on purpose
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                    OMPI_MCA_pml="ob1", OMPI_MCA_btl="^tcp,uct,openib,ofi", OPENBLAS_NUM_THREADS="1")
 
@@ -23,7 +24,7 @@ def run(*arguments, ranks=1, path=None):
     if ranks > 1:
         command = ["mpirun", "--oversubscribe", "-np", str(ranks), *command]
     environment = ENVIRONMENT if path is None else dict(ENVIRONMENT, PATH=path)
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, errors="replace", timeout=250,
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, errors="replace", timeout=250 * PATIENCE,
                           stdin=subprocess.DEVNULL)
     return done.returncode, done.stdout, done.stderr
 

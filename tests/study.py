@@ -216,7 +216,7 @@ while not (folder / "long" / "study.csv").exists() or len(table(folder / "long")
     time.sleep(0.05)
 time.sleep(0.2)
 os.kill(process.pid, signal.SIGINT)
-_, error = process.communicate(timeout=60)
+_, error = process.communicate(timeout=60 * runner.PATIENCE)
 runner.check(process.returncode == 2 and "after 2 of 3 runs" in error, f"{process.returncode} {error}")
 runner.check(len(table(folder / "long")) == 2 and (folder / "long" / "study.md").exists(), "the table")
 
