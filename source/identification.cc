@@ -31,6 +31,9 @@ namespace Supple
     table.unit        = parameters.unit_name();
     table.unit_length = parameters.unit_length();
     table.tolerance   = parameters.tolerance;
+    table.ratios      = parameters.ratios;
+    for (const double thickness : parameters.thicknesses)
+      table.thicknesses.push_back(thickness * table.unit_length);
     for (const MeasuredSet &set : sets)
       table.set_numbers.push_back(set.number);
     for (const double direction : parameters.comparison.directions())
@@ -65,7 +68,7 @@ namespace Supple
     prepare_output_folder(folder, communicator, [&] {
       namespace fs = std::filesystem;
       fs::create_directories(folder);
-      for (const char *name : {"identification", "profiles"})
+      for (const char *name : {"identification", "profiles", "fits"})
         for (const char *ending : {".csv", ".md", ".gp", ".svg", ".png"})
           fs::remove(fs::path(folder) / (std::string(name) + ending));
       fs::remove(fs::path(folder) / "report.html");
@@ -95,12 +98,15 @@ namespace Supple
         if (parameters.fit)
           fit();
       }
-    catch (const ComputationError &)
+    catch (const ComputationError &error)
       {
-        write(false);
+        table.note = std::string("Not complete. ") + error.what();
+        if (table.best_profiles.empty() && !table.pairs.empty())
+          compare_best();
+        write();
         throw;
       }
-    write(true);
+    write();
     for (const std::string &sentence : table.sentences())
       say("  " + sentence);
     const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - start;
@@ -114,7 +120,7 @@ namespace Supple
     const InterruptGuard interrupt;
     if (interrupt.requested(communicator))
       throw InterruptedError("Interrupted after " + std::to_string(table.pairs.size()) +
-                             " pairs of the grid; their table is in " + folder + ".");
+                             " pairs of the grid; what they gave is in " + folder + ".");
     const SurfaceComparison &comparison = parameters.comparison;
     const SurfaceResponse surface       = model.surface(pair);
     PairErrors result{pair, {}, {}};
@@ -207,15 +213,15 @@ namespace Supple
 
 
   void
-  Identification::write(const bool with_plots) const
+  Identification::write() const
   {
     if (!root)
       return;
     write_whole_file(folder + "/identification.csv", table.csv());
-    if (!with_plots)
-      return;
     write_whole_file(folder + "/identification.md", table.markdown());
     write_whole_file(folder + "/profiles.csv", table.profiles_csv());
+    if (!table.fits.empty())
+      write_whole_file(folder + "/fits.csv", table.fits_csv());
     write_report(folder, table);
     const std::string problem = plot_identification(table, folder);
     if (!problem.empty())

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <sstream>
 
 namespace Supple
@@ -49,17 +48,43 @@ namespace Supple
     }
 
 
-    /** The place of each different number. */
-    std::map<double, unsigned int>
-    places_of(const IdentificationTable &table, double LayerPair::*coordinate)
+    /** An error in thousandths, so short that it fits into its box. */
+    std::string
+    short_text(const double number)
     {
-      std::map<double, unsigned int> places;
-      for (const PairErrors &pair : table.pairs)
-        places[pair.pair.*coordinate] = 0;
-      unsigned int n = 0;
-      for (auto &[number, place] : places)
-        place = n++;
-      return places;
+      return digits(number >= 9.95 ? std::round(number) : number, number >= 9.95 ? 6 : 2);
+    }
+
+
+    std::vector<std::string>
+    names_of(const std::vector<double> &numbers, const double unit)
+    {
+      std::vector<std::string> names;
+      for (const double number : numbers)
+        names.push_back(digits(number / unit, 4));
+      return names;
+    }
+
+
+    /** Boxes with their errors: column, row, error, error in thousandths; and the best one. */
+    template <class Number>
+    std::string
+    heat_data(const IdentificationTable &table, const Number &error)
+    {
+      const std::size_t n_columns = table.ratios.size();
+      std::ostringstream text, best;
+      text << "$errors << EOD\n";
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < table.pairs.size(); ++k)
+        {
+          const double value  = error(table.pairs[k]) / table.unit_length;
+          const auto position = std::to_string(k % n_columns) + " " + std::to_string(k / n_columns);
+          text << position << " " << value << " " << short_text(1e3 * value) << "\n";
+          if (value < least)
+            best.str(position);
+          least = std::min(least, value);
+        }
+      return text.str() + "EOD\n$best << EOD\n" + best.str() + "\nEOD\n";
     }
 
 
@@ -94,44 +119,29 @@ namespace Supple
              const std::string &title,
              const Number &error)
     {
-      const auto rows    = places_of(table, &LayerPair::thickness);
-      const auto columns = places_of(table, &LayerPair::ratio);
-      std::vector<std::string> row_names, column_names;
-      for (const auto &[thickness, place] : rows)
-        row_names.push_back(digits(thickness / table.unit_length, 4));
-      for (const auto &[ratio, place] : columns)
-        column_names.push_back(digits(ratio, 4));
-
-      const auto best =
-        std::min_element(table.pairs.begin(), table.pairs.end(), [&](const auto &a, const auto &b) {
-          return error(a) < error(b);
-        });
+      const std::size_t n_rows = table.thicknesses.size(), n_columns = table.ratios.size();
+      const bool unfinished = table.pairs.size() < n_rows * n_columns;
       std::ostringstream text;
-      text << head(plot, title) << "$errors << EOD\n";
-      for (const PairErrors &pair : table.pairs)
-        text << columns.at(pair.pair.ratio) << " " << rows.at(pair.pair.thickness) << " "
-             << error(pair) / table.unit_length << " "
-             << digits(1e3 * error(pair) / table.unit_length, 4) << "\n";
-      text << "EOD\n$best << EOD\n"
-           << columns.at(best->pair.ratio) << " " << rows.at(best->pair.thickness) << "\nEOD\n"
-           << tics("x", column_names) << tics("y", row_names)
+      text << head(plot, title + (unfinished ? " (not complete)" : "")) << heat_data(table, error)
+           << tics("x", names_of(table.ratios, 1.))
+           << tics("y", names_of(table.thicknesses, table.unit_length))
            << "set xlabel \"Young modulus of the upper layer over that of the lower one\"\n"
            << "set ylabel " << quoted("thickness of the upper layer [" + table.unit + "]")
            << "\nset cblabel " << quoted("error [" + table.unit + "]")
            << "\nset logscale cb\nset cbtics (" << tics_between(table, error) << ")\nunset key\n"
-           << "set palette defined (0 \"#1b7837\", 1 \"#7fbf7b\", 2 \"#f7f7f7\", 3 \"#fdb863\", "
-              "4 \"#b35806\")\n"
-           << "set xrange [-0.5:" << columns.size() - 0.5
-           << "]\nset yrange [-0.5:" << rows.size() - 0.5 << "]\n";
-      const std::string small = rows.size() * columns.size() > 200 ? "8" : "11";
+           << "set palette defined (0 \"#78c679\", 1 \"#c2e699\", 2 \"#fafaf0\", 3 \"#fdd9b0\", "
+              "4 \"#f4ad6e\")\n"
+           << "set style fill solid noborder\nset xrange [-0.5:" << n_columns - 0.5
+           << "]\nset yrange [-0.5:" << n_rows - 0.5 << "]\n";
+      const std::string size = n_rows * n_columns > 200 ? "11" : "14";
       return text.str() +
              foot(plot,
-                  "plot $errors using 1:2:3 with image, \\\n"
+                  "plot $errors using 1:2:(0.5):(0.5):3 with boxxyerror fc palette, \\\n"
                   "  $errors using 1:2:4 with labels font \"Helvetica," +
-                    small +
+                    size +
                     "\", \\\n"
-                    "  $best using 1:2:(0.47):(0.47) with boxxyerror fs empty lw 3 lc rgb "
-                    "\"black\"\n");
+                    "  $best using 1:2:(0.47):(0.47) with boxxyerror fs empty border lc rgb "
+                    "\"black\" lw 3\n");
     }
 
 
@@ -163,11 +173,17 @@ namespace Supple
           commands << (s == 0 ? "plot " : ", \\\n  ") << "$set" << s
                    << " using 1:2 with points pt 7 ps 1 " << color << " title "
                    << quoted("set " + set + ", measured");
+          const LayerPair &best = table.best_of_set(s).pair;
+          const std::string computed =
+            "set " + set + ", computed: " + digits(best.thickness / table.unit_length, 4) + " " +
+            table.unit + ", ratio " + digits(best.ratio, 4);
           for (std::size_t side = 0; side < table.side_names.size(); ++side)
             commands << ", \\\n  $set" << s << " using 1:" << side + 3 << " with lines lw 2 dt "
-                     << side + 1 << " " << color << " title "
-                     << quoted("set " + set + ", " + table.words(table.best_of_set(s).pair) +
-                               (table.side_names.size() > 1 ? ", " + table.side_names[side] : ""));
+                     << side + 1 << " " << color
+                     << (side == 0 ? " title " + quoted(computed + (table.side_names.size() > 1
+                                                                      ? " (left; dashed: right)"
+                                                                      : ""))
+                                   : std::string(" notitle"));
         }
       return text.str() + foot(plot, commands.str() + "\n");
     }
@@ -178,6 +194,8 @@ namespace Supple
   plot_identification(const IdentificationTable &table, const std::string &folder)
   {
     std::vector<std::pair<std::string, std::string>> plots;
+    if (table.pairs.empty())
+      return "";
     const std::string meaning =
       "error [" + std::string(table.unit == "mm" ? "um" : "1e-3 " + table.unit) + "]";
     for (std::size_t s = 0; s < table.set_numbers.size(); ++s)

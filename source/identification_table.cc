@@ -18,6 +18,14 @@ namespace Supple
     }
 
 
+    /** Four digits, or all before the point. */
+    std::string
+    ratio_text(const double ratio)
+    {
+      return ratio < 1e3 ? digits(ratio, 4) : digits(std::round(ratio), all_digits);
+    }
+
+
     /** Errors of one set, or a total of all, a row for each thickness; nothing where the grid is
      * not done. */
     template <class Number>
@@ -95,7 +103,7 @@ namespace Supple
   std::string
   IdentificationTable::words(const LayerPair &pair) const
   {
-    return digits(pair.thickness / unit_length, 4) + " " + unit + " and " + digits(pair.ratio, 4);
+    return digits(pair.thickness / unit_length, 4) + " " + unit + " and " + ratio_text(pair.ratio);
   }
 
 
@@ -121,6 +129,8 @@ namespace Supple
   IdentificationTable::sentences() const
   {
     std::vector<std::string> list;
+    if (pairs.empty())
+      return list;
     const auto names = IdentificationParameters::total_names();
     for (std::size_t s = 0; s < set_numbers.size(); ++s)
       list.push_back("set " + std::to_string(set_numbers[s]) + " : " + words(best_of_set(s).pair) +
@@ -141,8 +151,8 @@ namespace Supple
                        digits(100. * tolerance, 3) + " % of that from " +
                        digits(found.thinnest.pair.thickness / unit_length, 3) + " to " +
                        digits(found.thickest.pair.thickness / unit_length, 3) + " " + unit +
-                       " and from " + digits(found.softest.pair.ratio, 3) + " to " +
-                       digits(found.hardest.pair.ratio, 3) + edge_words(found.best.pair));
+                       " and from " + ratio_text(found.softest.pair.ratio) + " to " +
+                       ratio_text(found.hardest.pair.ratio) + edge_words(found.best.pair));
       }
     return list;
   }

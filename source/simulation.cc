@@ -1,3 +1,4 @@
+#include <supple/digits.h>
 #include <supple/error.h>
 #include <supple/expression.h>
 #include <supple/interrupt.h>
@@ -165,6 +166,11 @@ namespace Supple
         "stable for oscillations that hardly decay: these may grow without bounds.");
     if (!energy_from_nowhere().empty())
       list.push_back(energy_from_nowhere());
+    if (diagnostics.extremes().most_inverted > 0)
+      list.push_back("Up to " + std::to_string(diagnostics.extremes().most_inverted) +
+                     " cells at once were inside out, with a volume ratio down to " +
+                     digits(diagnostics.extremes().min_volume_ratio, 3) +
+                     " (history.csv): stress and strain there mean nothing.");
     if (effort.jumps > 0)
       list.push_back("In " + std::to_string(effort.jumps) +
                      " steps a prescribed motion jumps, or swings to and fro: what it does to the "

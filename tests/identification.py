@@ -101,7 +101,7 @@ noisy = folder / "noisy.csv"
 noisy.write_text("set,distance,depth\n" + "".join(
     f"3,{row['x'] * 1e3:.12g},{row['depth'] * 1e3 + 0.02 * (-1) ** i:.12g}\n" for i, row in enumerate(surface)))
 extents = []
-for tolerance in 0.05, 0.2:
+for tolerance in 0.05, 0.1, 0.2:
     results, rows = identify(SKIN / "tables-3.3.prm", {**fit, "Identification/Measurements": noisy,
                                                        "Identification/Fit tolerance": tolerance})
     line = next(line for line in (results.folder / "identification.md").read_text().splitlines() if "fit of set 3" in line)
@@ -112,7 +112,39 @@ for tolerance in 0.05, 0.2:
     runner.check(low <= thickness * 1.01 and thickness <= high * 1.01 and soft <= ratio * 1.01 and ratio <= stiff * 1.01, line)
     runner.check(float(pair.split(", ")[1].split()[0]) <= min(row["error_3"] for row in rows) * 1.0001, f"{line}: worse than the grid")
     extents.append((high - low, stiff - soft))
-runner.check(extents[0][0] < extents[1][0] and extents[0][1] < extents[1][1], f"{extents}")
+
+    # The error at each end of the range, computed anew: the best one and the tolerance, or less at a bound. Beside the end,
+    # along the other coordinate, it is not less, and farther out it is more.
+    with open(results.folder / "fits.csv") as file:
+        points = {row["pair"]: {name: float(row[name]) for name in ("thickness", "ratio", "error")} for row in csv.DictReader(file)}
+    best = points.pop("best")["error"]
+    runner.check(sorted(points) == ["greatest ratio", "least ratio", "thickest", "thinnest"], f"{points}")
+    n_inside = 0
+    for name, point in points.items():
+        sign = 1 if name in ("thickest", "greatest ratio") else -1
+        along = name in ("thinnest", "thickest")                  # the thickness is at its end
+        at_bound = any(abs(point["thickness" if along else "ratio"] / bound - 1) < 1e-3 for bound in ((0.6, 1.4) if along else (5, 40)))
+        scales = [1 - 0.05, 1, 1 + 0.05]
+        thicknesses = [point["thickness"] * s for s in ([1, 1 + 0.02 * sign] if along else scales)]
+        ratios = [point["ratio"] * s for s in (scales if along else [1, 1 + 0.02 * sign])]
+        _, near = identify(SKIN / "tables-3.3.prm", {**fit, "Identification/Measurements": noisy, "Identification/Fit": "false",
+                                                     "Identification/Thicknesses": ", ".join(map(repr, sorted(thicknesses))),
+                                                     "Identification/Elasticity ratios": ", ".join(map(repr, sorted(ratios)))})
+        errors = {(round(row["thickness"], 6), round(row["ratio"], 5)): row["error_3"] for row in near}
+        error_at = lambda thickness, ratio: errors[round(thickness, 6), round(ratio, 5)]
+        here = error_at(point["thickness"], point["ratio"])
+        runner.check(abs(here / point["error"] - 1) < 1e-6, f"{name}: {here} instead of {point}")
+        if at_bound:
+            runner.check(here <= (1 + tolerance) * best * 1.002, f"{name} at a bound: {here}, best {best}")
+            continue
+        n_inside += 1
+        runner.check(abs(here / ((1 + tolerance) * best) - 1) < 0.002, f"{name}: {here / best} times the best, tolerance {tolerance}")
+        beside = [error_at(t, r) for t in (thicknesses[:1] if along else thicknesses) for r in (ratios if along else ratios[:1])]
+        runner.check(here <= min(beside) * 1.002, f"{name}: {beside} beside {here}")
+        outside = [error_at(t, r) for t in (thicknesses[1:] if along else thicknesses) for r in (ratios if along else ratios[1:])]
+        runner.check(min(outside) > here, f"{name}: {outside} outside of {here}")
+    runner.check(n_inside >= 3 or tolerance > 0.1, f"{n_inside} ends inside the bounds: {points}")
+runner.check(extents[0][0] < extents[1][0] < extents[2][0] and extents[0][1] < extents[1][1] < extents[2][1], f"{extents}")
 
 # What can be wrong, each told in one message with its place.
 right = {"Scene": SKIN / "thesis.prm", "Measurements": SKIN / "fingertip.csv", "Thicknesses": "0.75, 1.5",
@@ -169,9 +201,14 @@ refused("Corotation/Rotation", "proportional", arguments=["--set", "Corotation/R
 refused("Time/Problem", "static", arguments=["--set", "Time/Problem=dynamic"])
 refused("Loads/Gravity", "needle alone", arguments=["--set", "Loads/Gravity=0, -9.81, 0"])
 refused("Motion/Of", "outside the body", arguments=["--set", "Motion/Of=nearest to 0.02, 0, 0"])
+for center, words in ("0.02, 0, 0", ["outside the body", "between x = -0.006 and 0.006"]), ("0, 0, 0.001", ["no vertices straight"]):
+    refused("Probes/Profile center", *words, arguments=["--set", "Probes/Profile center=" + center])
 refused("Mesh/Layer rows", "7 rows together", "6", arguments=["--set", "Mesh/Layer rows=3, 4"])
 refused("Mesh/Layer rows", "one for each", arguments=["--set", "Mesh/Layer rows=6"])
 refused("Mesh/Map", "inside out", arguments=["--set", "Mesh/Map=abs(x); y; z"])
 refused("wrong.prm", "Stop", Stop="1")
 status, _, error = runner.run(SKIN / "tables-3.3.prm", "--output", folder / "up", "--quiet", "--set", "Motion/Displacement=free; 0.001*t; free")
 runner.check(status == 1 and "does not go down" in error, f"{status} {error}")
+status, _, error = runner.run(SKIN / "tables-3.3.prm", "--output", folder / "beside", "--quiet", "--set", "Motion/Of=nearest to 0.003, 0, 0",
+                              "--set", "Probes/Profile center=-0.006, 0, 0", "--set", "Identification/Side=right")
+runner.check(status == 1 and "Probes/Profile center" in error and "x = 0.003" in error and "Motion/Displacement" not in error, f"{status} {error}")

@@ -11,8 +11,9 @@ namespace Supple
    * Two layers of skin from the shape of its surface under a needle: the error of each pair of
    * thickness and elasticity ratio on a grid, and between them by an optimizer.
    *
-   * Into its folder it writes identification.csv, identification.md, profiles.csv, report.html,
-   * heat maps and the best profiles (SVG, PNG and the scripts of gnuplot they are made by).
+   * Into its folder it writes identification.csv, identification.md, profiles.csv, fits.csv,
+   * report.html, heat maps and the best profiles (SVG, PNG and the scripts of gnuplot they are made
+   * by). One that fails or is interrupted leaves the same of what is done, with a note.
    */
   class Identification
   {
@@ -55,9 +56,9 @@ namespace Supple
     void
     compare_best();
 
-    /** Tables, and at the end plots. */
+    /** Tables and plots of what there is. */
     void
-    write(bool with_plots) const;
+    write() const;
 
     void
     say(const std::string &text) const;
