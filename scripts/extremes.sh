@@ -3,13 +3,7 @@
 # SUPPLE=path takes another executable instead of building one. doc/extremes.md sums the tables up by hand.
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
-if [ -n "${SUPPLE:-}" ]; then
-  supple=$(realpath "$SUPPLE")
-else
-  install_missing run
-  build "$root/build"
-  supple=$root/build/supple
-fi
+find_supple
 cd "$root"
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
 

@@ -245,14 +245,7 @@ namespace Supple
     // The force at the end of a stage follows from the solution of its equation.
     ARKStepSetDeduceImplicitRhs(memory, 1);
     ARKStepSetPredictorMethod(memory, 0);
-    set_linear(settings.method == Method::backward_euler || forces_are_linear());
-  }
-
-
-  bool
-  ArkodeIntegrator::forces_are_linear() const
-  {
-    return model.body.rotation == RotationMethod::none && !model.loads.follow();
+    set_linear(settings.method == Method::backward_euler || model.forces_are_linear());
   }
 
 
@@ -366,7 +359,7 @@ namespace Supple
   ArkodeIntegrator::set_rotations(const EquationOfMotion::Rotations rotations)
   {
     equation.set_rotations(rotations);
-    set_linear(rotations == EquationOfMotion::Rotations::frozen || forces_are_linear());
+    set_linear(rotations == EquationOfMotion::Rotations::frozen || model.forces_are_linear());
   }
 
 

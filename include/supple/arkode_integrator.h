@@ -53,10 +53,6 @@ namespace Supple
     void
     accept_step() override;
 
-    /** In the displacement. */
-    bool
-    forces_are_linear() const;
-
     /** Stages are one linear system each, or Newton's method. */
     void
     set_linear(bool linear);
