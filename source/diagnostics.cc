@@ -134,7 +134,10 @@ namespace Supple
     worst.max_volume_ratio = std::max(worst.max_volume_ratio, measurement.max_volume_ratio);
     worst.most_inverted    = std::max(worst.most_inverted, measurement.inverted);
     if (rise > energy_accuracy * largest_energy)
-      ++worst.energy_rises;
+      {
+        ++worst.energy_rises;
+        worst.energy_risen += rise;
+      }
     const std::vector<double> row = measurement.row();
     if (!std::all_of(row.begin(), row.end(), [](const double value) {
           return std::isfinite(value);
@@ -152,6 +155,7 @@ namespace Supple
             {"work", work},
             {"largest_energy", largest_energy},
             {"energy_rises", worst.energy_rises},
+            {"energy_risen", worst.energy_risen},
             {"most_inverted", worst.most_inverted},
             {"min_volume_ratio", worst.min_volume_ratio},
             {"max_volume_ratio", worst.max_volume_ratio},
@@ -169,6 +173,7 @@ namespace Supple
     work                   = saved.at("work");
     largest_energy         = saved.at("largest_energy");
     worst.energy_rises     = saved.at("energy_rises");
+    worst.energy_risen     = saved.at("energy_risen");
     worst.most_inverted    = saved.at("most_inverted");
     worst.min_volume_ratio = saved.at("min_volume_ratio");
     worst.max_volume_ratio = saved.at("max_volume_ratio");

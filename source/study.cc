@@ -95,6 +95,11 @@ namespace Supple
   Study::state_facts()
   {
     table.facts.push_back(parameters.scene_in_words());
+    std::string set;
+    for (const Override &override : parameters.command_line)
+      set += (set.empty() ? "`" : ", `") + override.text + "`";
+    if (!set.empty())
+      table.facts.push_back("Set on the command line: " + set + ".");
     if (!table.error_names.empty())
       table.facts.push_back("Error: " + quantities.error_meaning() + ".");
     const unsigned int n_ranks = n_mpi_processes(communicator);

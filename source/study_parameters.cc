@@ -134,11 +134,11 @@ namespace Supple
     prm.add_parameter(
       "Right if",
       right_if,
-      "A run is right where this expression of the Columns holds, such as rises "
-      "== 0 && abs(sag + 0.114) < 0.001. A name with above_ before it is that number "
-      "of the row above. Behind it may stand: or warning TEXT. A run that is not "
-      "right, but has a warning with this text, has the verdict warned in place of "
-      "wrong. Unit: none. Range: an expression of names in Columns, or nothing.",
+      "A run is right where this expression of the Columns holds, such as rises == 0 && abs(sag + "
+      "0.114) < 0.001; a name with above_ before it is that number of the row above. Behind it may "
+      "stand: or warning TEXT, or: or EXPRESSION with warning TEXT. A run that is not right, but "
+      "has a warning with this text, and for which this expression holds, has the verdict warned "
+      "in place of wrong. Unit: none. Range: an expression of names in Columns, or nothing.",
       any);
     prm.add_parameter(
       "Targets",

@@ -425,14 +425,17 @@ namespace Supple
                            const std::vector<std::string> &warnings) const
   {
     std::smatch parts;
-    std::regex_match(run.right_if, parts, std::regex("(.*?)(\\s+or warning\\s+(.*\\S)\\s*)?"));
+    std::regex_match(run.right_if,
+                     parts,
+                     std::regex("(.*?)(\\s+or\\s+(?:(.+?)\\s+with\\s+)?warning\\s+(.*\\S)\\s*)?"));
     if (holds(parts[1], values, above))
       return "right";
-    const std::string words = parts[3];
-    const bool told =
-      !words.empty() && std::any_of(warnings.begin(), warnings.end(), [&](const std::string &text) {
-        return text.find(words) != std::string::npos;
-      });
+    const std::string less = parts[3], words = parts[4];
+    const bool enough = less.empty() || holds(less, values, above);
+    const bool told   = enough && !words.empty() &&
+                      std::any_of(warnings.begin(), warnings.end(), [&](const std::string &text) {
+                        return text.find(words) != std::string::npos;
+                      });
     return told ? "warned" : "wrong";
   }
 } // namespace Supple

@@ -134,6 +134,7 @@ namespace Supple
       {
         json["last"]     = energies(last);
         json["extremes"] = {{"energy_rises", extremes.energy_rises},
+                            {"energy_risen", extremes.energy_risen},
                             {"most_inverted", extremes.most_inverted},
                             {"min_volume_ratio", extremes.min_volume_ratio},
                             {"max_volume_ratio", extremes.max_volume_ratio},

@@ -133,6 +133,22 @@ runner.check(second["time"] == 0.14 and abs(float(rows[0]["soon"]) - second["n28
 runner.check(rows[0]["never"] == "", f"{rows[0]}")
 runner.check(1 < float(rows[4]["f"]) < 2 and float(rows[4]["error_first"]) == 0, f"{rows[4]}")
 
+# A case's own condition, numbers of the row above, and runs that are wrong but warned of it.
+moved = "[Start/Displacement = 0; 0; 1 | Time/Steps = 1 | Corotation/Rotation = %s]"
+told = "sag > 99 or %swarning depend on the axes"
+rows = study("conditions", Scene=runner.BAR, Overrides="Time/Steps = 1", Columns="sag: first n28.uz", Right_if="sag == 0", Repeats=0,
+             Cases=f"plain []; moved {moved % 'polar'}; own {moved % 'polar'}: abs(sag - above_sag) < 1e-9; first []: above_sag == 1; "
+                   f"warned {moved % 'gram-schmidt'}: {told % ''}; still {moved % 'gram-schmidt'}: {told % 'sag == 1 with '}; "
+                   f"less {moved % 'gram-schmidt'}: {told % 'sag == 2 with '}; unwarned {moved % 'polar'}: {told % ''}")
+verdicts = ["right", "wrong", "right", "right", "warned", "warned", "wrong", "wrong"]
+runner.check([row["verdict"] for row in rows] == verdicts, f"{rows}")
+words = (folder / "conditions-1" / "study.md").read_text()
+runner.check(words.count("They depend on the axes") == 3 and "command line" not in words, words)
+rows = study("unmoved", Scene=runner.BAR, Overrides="Time/Steps = 1", Columns="sag: first n28.uz", Repeats=0,
+             Cases="lonely []: above_sag == 0", arguments=["--set", "Time/Steps=2"])
+runner.check([row["verdict"] for row in rows] == ["wrong"] and rows[0]["steps"] == "2", f"{rows}")
+runner.check("Set on the command line: `Time/Steps=2`" in (folder / "unmoved-1" / "study.md").read_text(), "the command line")
+
 # A check builds all and writes nothing.
 status, output, error = runner.run("--check", folder / "cases.prm", "--output", folder / "checked")
 runner.check(status == 0 and "locked: refused: " in output and "broken: right" in output, output + error)
@@ -179,6 +195,8 @@ refused("Study/Columns", "soon", Columns="a: at soon n0.ux")
 refused("means something else", Columns="x: n0.ux")
 refused("needs Columns", Right_if="a > 0")
 refused("Right if", "b", Columns="a: n0.ux", Right_if="b > 0")
+refused("wrong.prm:", "Study/Cases", "b", Methods="", Reference="", Columns="a: n0.ux", Cases="one []: b > 0")
+refused("b", Columns="a: n0.ux", Right_if="a > 0 or b > 0 with warning depend")
 refused("is no column", Exact="sag: 0", Reference="")
 refused("levels need Columns", Methods="", Levels="1 []")
 refused("cases need Columns", Methods="", Reference="", Cases="a []")

@@ -46,8 +46,9 @@ namespace Supple
   /** The worst of a run. */
   struct Extremes
   {
-    unsigned int energy_rises  = 0; ///< steps in which the total energy rose by more than the work
-    unsigned int most_inverted = 0; ///< cells
+    unsigned int energy_rises  = 0;  ///< steps in which the total energy rose by more than the work
+    double energy_risen        = 0.; ///< in these steps together [J]
+    unsigned int most_inverted = 0;  ///< cells
     double min_volume_ratio    = 1.;
     double max_volume_ratio    = 1.;
     unsigned int not_finite    = 0; ///< rows of the history with something that is no finite number

@@ -46,8 +46,8 @@ namespace Supple
 
     /**
      * Of a run with a condition, "right", "wrong", or "warned": wrong, but with a warning that the
-     * condition asks for ("... or warning TEXT"). It is not right where a number that the condition
-     * speaks of is none.
+     * condition asks for ("... or warning TEXT", "... or LESS with warning TEXT" where LESS holds).
+     * What speaks of a number that is none does not hold.
      * @param above values of the row above, if there is one; the condition knows them as above_NAME
      */
     std::string
