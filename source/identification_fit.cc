@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <tuple>
 
 namespace Supple
@@ -70,25 +71,43 @@ namespace Supple
 
     /**
      * Least value along one coordinate of the unit square, where the other one is fixed: looked for
-     * by Brent's method around where it was last.
+     * around where it was last, at some places and then by Brent's method around the best of them,
+     * for there may be several minima: deviations have kinks where a point passes a vertex.
      * @param point its free coordinate is set to where the least value is
      */
     double
     least_value(Objective &function, std::vector<double> &point, const unsigned int fixed)
     {
       constexpr double reach = 0.1; // of the square's side
-      constexpr int bits     = 9;   // of the accuracy of that
+      constexpr int n_places = 3;   // on each side
+      constexpr int bits     = 7;   // of the accuracy of the distance between them
 
-      const unsigned int free   = 1 - fixed;
-      const double last         = point[free];
-      const auto [place, value] = boost::math::tools::brent_find_minima(
-        [&](const double x) {
-          point[free] = x;
-          return function(point);
-        },
-        std::max(0., last - reach),
-        std::min(1., last + reach),
-        bits);
+      const unsigned int free = 1 - fixed;
+      const auto value_at     = [&](const double x) {
+        point[free] = x;
+        return function(point);
+      };
+      const double last = point[free];
+      double place = last, value = value_at(last);
+      for (int k = -n_places; k <= n_places; ++k)
+        {
+          const double x = last + k * reach / n_places;
+          if (k == 0 || x < 0. || x > 1.)
+            continue;
+          const double other = value_at(x);
+          if (other < value)
+            {
+              value = other;
+              place = x;
+            }
+        }
+      const auto found =
+        boost::math::tools::brent_find_minima(value_at,
+                                              std::max(0., place - reach / n_places),
+                                              std::min(1., place + reach / n_places),
+                                              bits);
+      if (found.second < value)
+        std::tie(place, value) = found;
       point[free] = place;
       return value;
     }
@@ -152,6 +171,30 @@ namespace Supple
         n_most);
       return inside;
     }
+
+
+    /** The least value from a start on, and how far values reach that are not much larger. */
+    FitResult
+    search(Objective &objective,
+           const UnitSquare &square,
+           const std::vector<double> &start,
+           const double tolerance)
+    {
+      nlopt::opt opt = optimizer(nlopt::LN_BOBYQA, 0.1, 1e-4);
+      opt.set_min_objective(evaluate, &objective);
+      Place best{start, 0.};
+      for (double &x : best.point)
+        x = std::clamp(x, 0., 1.);
+      opt.optimize(best.point, best.value);
+
+      const auto as_pair = [&](const Place &place) {
+        return FitPoint{square.pair(place.point), place.value};
+      };
+      const auto end = [&](const unsigned int direction, const bool upward) {
+        return as_pair(farthest(objective, (1. + tolerance) * best.value, best, direction, upward));
+      };
+      return {as_pair(best), end(0, false), end(0, true), end(1, false), end(1, true)};
+    }
   } // namespace
 
 
@@ -164,11 +207,15 @@ namespace Supple
   {
     const UnitSquare square(lowest, highest);
     FitResult result;
+    Place least{square.point(start), std::numeric_limits<double>::infinity()}; // so far
     std::exception_ptr failure; // does not find its way through NLopt
     Objective objective = [&](const std::vector<double> &point) {
       try
         {
-          return function(square.pair(point));
+          const double value = function(square.pair(point));
+          if (value < least.value)
+            least = {point, value};
+          return value;
         }
       catch (...)
         {
@@ -178,21 +225,12 @@ namespace Supple
     };
     try
       {
-        nlopt::opt opt = optimizer(nlopt::LN_BOBYQA, 0.1, 1e-4);
-        opt.set_min_objective(evaluate, &objective);
-        Place best{square.point(start), 0.};
-        for (double &x : best.point)
-          x = std::clamp(x, 0., 1.);
-        opt.optimize(best.point, best.value);
-
-        const auto as_pair = [&](const Place &place) {
-          return FitPoint{square.pair(place.point), place.value};
-        };
-        const auto end = [&](const unsigned int direction, const bool upward) {
-          return as_pair(
-            farthest(objective, (1. + tolerance) * best.value, best, direction, upward));
-        };
-        result = {as_pair(best), end(0, false), end(0, true), end(1, false), end(1, true)};
+        // The search along the valley may find a better minimum than the optimizer did.
+        constexpr int most_searches = 4;
+        constexpr double better     = 1. - 1e-4;
+        for (int n = 0; n < most_searches && (n == 0 || least.value < better * result.best.value);
+             ++n)
+          result = search(objective, square, least.point, tolerance);
       }
     catch (const std::exception &exception)
       {
