@@ -45,3 +45,14 @@ build() {
     log=$(ninja -C "$folder" 2>&1) || { echo "$log" >&2; exit 1; }
   fi
 }
+
+# find_supple: sets supple to the executable: $SUPPLE if that is set, else one that it builds.
+find_supple() {
+  if [ -n "${SUPPLE:-}" ]; then
+    supple=$(realpath "$SUPPLE")
+  else
+    install_missing run
+    build "$root/build"
+    supple=$root/build/supple
+  fi
+}

@@ -4,13 +4,7 @@
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 known="" wanted=" $* "
-if [ -n "${SUPPLE:-}" ]; then
-  supple=$(realpath "$SUPPLE")
-else
-  install_missing run
-  build "$root/build"
-  supple=$root/build/supple
-fi
+find_supple
 cd "$root"
 
 # run PICTURE SCENE...: runs the scenes, each in output/ and its name, if the picture is wanted; fails if it is not.

@@ -4,13 +4,7 @@
 # of building one. doc/studies.md sums the tables up by hand.
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
-if [ -n "${SUPPLE:-}" ]; then
-  supple=$(realpath "$SUPPLE")
-else
-  install_missing run
-  build "$root/build"
-  supple=$root/build/supple
-fi
+find_supple
 cd "$root"
 
 # Times are those of one thread; first in the queue, where one may.

@@ -8,13 +8,7 @@ if [ ${#names[@]} -eq 0 ]; then
   names=(patch-test lame-cylinder lame-cylinder-plane lame-sphere lame-sphere-axisymmetric cantilever-bending
          cantilever-plane cantilever-axial elastica)
 fi
-install_missing run
-if [ -n "${SUPPLE:-}" ]; then
-  supple=$(realpath "$SUPPLE")
-else
-  build "$root/build"
-  supple=$root/build/supple
-fi
+find_supple
 cd "$root"
 
 for name in "${names[@]}"; do

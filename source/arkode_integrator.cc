@@ -245,14 +245,7 @@ namespace Supple
     // The force at the end of a stage follows from the solution of its equation.
     ARKStepSetDeduceImplicitRhs(memory, 1);
     ARKStepSetPredictorMethod(memory, 0);
-    set_linear(settings.method == Method::backward_euler || forces_are_linear());
-  }
-
-
-  bool
-  ArkodeIntegrator::forces_are_linear() const
-  {
-    return model.body.rotation == RotationMethod::none && !model.loads.follow();
+    set_linear(settings.method == Method::backward_euler || model.forces_are_linear());
   }
 
 
@@ -372,7 +365,7 @@ namespace Supple
     if (!smaller)
       {
         equation.set_rotations(EquationOfMotion::Rotations::following);
-        set_linear(forces_are_linear());
+        set_linear(model.forces_are_linear());
       }
     size_limit = smaller ? 0.5 * last_size : last_size;
     if (time == grid * settings.step) // it is where the step to be done again has landed

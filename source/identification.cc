@@ -1,6 +1,7 @@
 #include <supple/error.h>
 #include <supple/identification.h>
 #include <supple/interrupt.h>
+#include <supple/output_folder.h>
 #include <supple/progress.h>
 #include <supple/tables.h>
 
@@ -23,7 +24,7 @@ namespace Supple
     , communicator(communicator)
     , root(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
     , talks(!quiet && root)
-    , sets(parameters.measured_sets())
+    , sets(parameters.measured)
     , model(this->parameters, communicator)
   {
     table.name        = parameters.name;
@@ -34,17 +35,8 @@ namespace Supple
       table.set_numbers.push_back(set.number);
     for (const double direction : parameters.comparison.directions())
       table.side_names.push_back(direction < 0. ? "left" : "right");
-    table.facts = {"Scene: `" + parameters.path(parameters.scene) + "`" +
-                     (parameters.overrides.empty() ? std::string()
-                                                   : ", with `" + parameters.overrides + "`"),
+    table.facts = {parameters.scene_in_words(),
                    "Measurements: `" + parameters.path(parameters.measurements) + "`"};
-  }
-
-
-  std::string
-  Identification::output_folder(const IdentificationParameters &parameters)
-  {
-    return "output/" + parameters.name;
   }
 
 
@@ -70,28 +62,17 @@ namespace Supple
   void
   Identification::open_output() const
   {
-    std::string problem;
-    if (root)
-      try
-        {
-          namespace fs = std::filesystem;
-          fs::create_directories(folder);
-          for (const char *name : {"identification", "profiles"})
-            for (const char *ending : {".csv", ".md", ".gp", ".svg", ".png"})
-              fs::remove(fs::path(folder) / (std::string(name) + ending));
-          for (const auto &entry : fs::directory_iterator(folder))
-            if (entry.path().filename().string().rfind("errors_", 0) == 0)
-              fs::remove(entry.path());
-          write_whole_file(folder + "/identification.csv", table.csv());
-        }
-      catch (const std::exception &exception)
-        {
-          problem = "The output folder " + folder + " can't be written (" + exception.what() +
-                    "). Name another one with --output.";
-        }
-    problem = dealii::Utilities::MPI::broadcast(communicator, problem);
-    if (!problem.empty())
-      throw InputError(problem);
+    prepare_output_folder(folder, communicator, [&] {
+      namespace fs = std::filesystem;
+      fs::create_directories(folder);
+      for (const char *name : {"identification", "profiles"})
+        for (const char *ending : {".csv", ".md", ".gp", ".svg", ".png"})
+          fs::remove(fs::path(folder) / (std::string(name) + ending));
+      for (const auto &entry : fs::directory_iterator(folder))
+        if (entry.path().filename().string().rfind("errors_", 0) == 0)
+          fs::remove(entry.path());
+      write_whole_file(folder + "/identification.csv", table.csv());
+    });
   }
 
 

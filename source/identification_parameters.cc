@@ -2,10 +2,7 @@
 #include <supple/error.h>
 #include <supple/identification_parameters.h>
 
-#include <deal.II/base/utilities.h>
-
 #include <algorithm>
-#include <filesystem>
 
 namespace Supple
 {
@@ -30,6 +27,12 @@ namespace Supple
               any_number};
     }
   } // namespace
+
+
+  IdentificationParameters::IdentificationParameters()
+    : TaskParameters(section)
+  {
+  }
 
 
   bool
@@ -165,29 +168,14 @@ namespace Supple
     IdentificationParameters parameters;
     ParameterHandler prm;
     parameters.declare(prm);
-    parameters.file = ParameterFile(file);
-    parameters.name = parameters.file.name();
-
-    std::vector<Override> own;
-    for (const Override &override : overrides)
-      {
-        const bool mine =
-          dealii::Utilities::trim(override.text.substr(0, override.text.find('/'))) == section;
-        (mine ? own : parameters.command_line).push_back(override);
-      }
-    parameters.file.parse(prm, own);
+    parameters.parse(prm, file, overrides);
     parameters.check();
+    parameters.measured = read_measurements(parameters.path(parameters.measurements),
+                                            parameters.unit_length(),
+                                            parameters.sets,
+                                            parameters.place("Measurements"));
+    parameters.check_start_depths();
     return parameters;
-  }
-
-
-  std::string
-  IdentificationParameters::path(const std::string &as_written) const
-  {
-    const std::filesystem::path path(as_written);
-    return (path.is_absolute() ? path : std::filesystem::path(file.folder()) / path)
-      .lexically_normal()
-      .string();
   }
 
 
@@ -212,20 +200,6 @@ namespace Supple
   }
 
 
-  std::vector<MeasuredSet>
-  IdentificationParameters::measured_sets() const
-  {
-    return read_measurements(path(measurements), unit_length(), sets, place("Measurements"));
-  }
-
-
-  std::string
-  IdentificationParameters::place(const std::string &entry) const
-  {
-    return file.place(section + "/" + entry) + ": " + section + "/" + entry;
-  }
-
-
   void
   IdentificationParameters::check() const
   {
@@ -242,18 +216,23 @@ namespace Supple
         if (!std::is_sorted(list->begin(), list->end(), std::less_equal<>()))
           throw InputError(place(entry) + ": the numbers must ascend.");
       }
-    const bool thesis = comparison.correction == SurfaceComparison::Correction::thesis;
-    const auto n_sets = measured_sets().size();
-    if (start_depths.size() != (thesis ? n_sets : 0))
-      throw InputError(place("Start depths") + ": found " + std::to_string(start_depths.size()) +
-                       (thesis ? "; the thesis's correction needs one for each of the " +
-                                   std::to_string(n_sets) + " sets."
-                               : "; a converged correction needs none."));
     if (fit && (thicknesses.size() < 2 || ratios.size() < 2))
       throw InputError(place("Fit") + ": the grid has to have at least two thicknesses and two " +
                        "ratios, the bounds of the fit.");
-    if (fit && thesis)
+    if (fit && comparison.correction == SurfaceComparison::Correction::thesis)
       throw InputError(place("Fit") + ": the thesis's depths depend on the pair before; a fit " +
                        "needs Depth correction = converged.");
+  }
+
+
+  void
+  IdentificationParameters::check_start_depths() const
+  {
+    const bool thesis = comparison.correction == SurfaceComparison::Correction::thesis;
+    if (start_depths.size() != (thesis ? measured.size() : 0))
+      throw InputError(place("Start depths") + ": found " + std::to_string(start_depths.size()) +
+                       (thesis ? "; the thesis's correction needs one for each of the " +
+                                   std::to_string(measured.size()) + " sets."
+                               : "; a converged correction needs none."));
   }
 } // namespace Supple

@@ -1,3 +1,4 @@
+#include <supple/digits.h>
 #include <supple/gnuplot.h>
 #include <supple/identification_table.h>
 #include <supple/tables.h>
@@ -48,16 +49,6 @@ namespace Supple
     }
 
 
-    std::string
-    plain(const double number)
-    {
-      std::ostringstream text;
-      text.precision(4);
-      text << number;
-      return text.str();
-    }
-
-
     /** The place of each different number. */
     std::map<double, unsigned int>
     places_of(const IdentificationTable &table, double LayerPair::*coordinate)
@@ -91,7 +82,7 @@ namespace Supple
              power *= 10.)
           for (const double digit : {1., 2., 5.})
             if (digit * power >= lowest && digit * power <= highest)
-              text += (text.empty() ? "" : ", ") + plain(digit * power);
+              text += (text.empty() ? "" : ", ") + digits(digit * power, 4);
       return text;
     }
 
@@ -107,9 +98,9 @@ namespace Supple
       const auto columns = places_of(table, &LayerPair::ratio);
       std::vector<std::string> row_names, column_names;
       for (const auto &[thickness, place] : rows)
-        row_names.push_back(plain(thickness / table.unit_length));
+        row_names.push_back(digits(thickness / table.unit_length, 4));
       for (const auto &[ratio, place] : columns)
-        column_names.push_back(plain(ratio));
+        column_names.push_back(digits(ratio, 4));
 
       const auto best =
         std::min_element(table.pairs.begin(), table.pairs.end(), [&](const auto &a, const auto &b) {
@@ -120,7 +111,7 @@ namespace Supple
       for (const PairErrors &pair : table.pairs)
         text << columns.at(pair.pair.ratio) << " " << rows.at(pair.pair.thickness) << " "
              << error(pair) / table.unit_length << " "
-             << plain(1e3 * error(pair) / table.unit_length) << "\n";
+             << digits(1e3 * error(pair) / table.unit_length, 4) << "\n";
       text << "EOD\n$best << EOD\n"
            << columns.at(best->pair.ratio) << " " << rows.at(best->pair.thickness) << "\nEOD\n"
            << tics("x", column_names) << tics("y", row_names)

@@ -1,8 +1,8 @@
+#include <supple/digits.h>
 #include <supple/identification_table.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace Supple
 {
@@ -10,16 +10,6 @@ namespace Supple
 
   namespace
   {
-    std::string
-    digits(const double number, const unsigned int n)
-    {
-      std::ostringstream text;
-      text.precision(n);
-      text << number;
-      return text.str();
-    }
-
-
     std::string
     with_underscores(std::string name)
     {

@@ -1,8 +1,8 @@
+#include <supple/digits.h>
 #include <supple/error.h>
 #include <supple/expression.h>
 #include <supple/layered_model.h>
 #include <supple/simulation.h>
-#include <supple/study_plan.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,35 +12,18 @@ namespace Supple
 {
   namespace
   {
-    /** In full length. */
-    std::string
-    exact_text(const double value)
+    /** What an identification changes in its scene: this is linear, a step is enough. */
+    Override
+    one_step(const IdentificationParameters &identification)
     {
-      std::ostringstream text;
-      text.precision(17);
-      text << value;
-      return text.str();
-    }
-
-
-    std::vector<Override>
-    scene_overrides(const IdentificationParameters &identification)
-    {
-      std::vector<Override> list =
-        override_list(identification.overrides, identification.place("Overrides"));
-      list.insert(list.end(),
-                  identification.command_line.begin(),
-                  identification.command_line.end());
-      list.push_back({"Time/Steps=1", identification.place("Scene")}); // it is linear
-      return list;
+      return {"Time/Steps=1", identification.place("Scene")};
     }
   } // namespace
 
 
   LayeredModel::LayeredModel(const IdentificationParameters &identification,
                              const MPI_Comm communicator)
-    : base(Parameters::read(identification.path(identification.scene),
-                            scene_overrides(identification)))
+    : base(identification.read_scene({one_step(identification)}))
     , identification(identification)
     , communicator(communicator)
   {
@@ -95,8 +78,8 @@ namespace Supple
     for (const double thickness : identification.thicknesses)
       if (thickness * identification.unit_length() >= height())
         throw InputError(identification.place("Thicknesses") + ": the upper layer of " +
-                         exact_text(thickness) + " " + identification.unit_name() +
-                         " leaves nothing for the lower one; the body is " + exact_text(height()) +
+                         digits(thickness, 6) + " " + identification.unit_name() +
+                         " leaves nothing for the lower one; the body is " + digits(height(), 6) +
                          " m high.");
     if (identification.fit && base.mesh.layer_rows.size() != 2)
       throw InputError(identification.place("Fit") +
@@ -124,9 +107,10 @@ namespace Supple
     const auto lower     = materials.find(1);
     const double lower_poisson =
       lower == materials.end() ? base.material.poisson : lower->second.poisson();
-    return {exact_text(pair.thickness) + ", " + exact_text(height() - pair.thickness),
-            "1: " + exact_text(base.material.young / pair.ratio) + ", " +
-              exact_text(lower_poisson) + ", " + exact_text(base.material.density)};
+    const auto exact = [](const double value) { return digits(value, all_digits); };
+    return {exact(pair.thickness) + ", " + exact(height() - pair.thickness),
+            "1: " + exact(base.material.young / pair.ratio) + ", " + exact(lower_poisson) + ", " +
+              exact(base.material.density)};
   }
 
 
@@ -134,10 +118,10 @@ namespace Supple
   LayeredModel::read_scene(const LayerPair &pair) const
   {
     const auto [thicknesses, lower] = layers(pair);
-    std::vector<Override> overrides = scene_overrides(identification);
-    overrides.push_back({"Mesh/Layers=" + thicknesses, identification.place("Thicknesses")});
-    overrides.push_back({"Material/By id=" + lower, identification.place("Elasticity ratios")});
-    return Parameters::read(identification.path(identification.scene), overrides);
+    return identification.read_scene(
+      {one_step(identification),
+       {"Mesh/Layers=" + thicknesses, identification.place("Thicknesses")},
+       {"Material/By id=" + lower, identification.place("Elasticity ratios")}});
   }
 
 

@@ -22,56 +22,31 @@
 
 namespace
 {
+  /** A scene, or a study or an identification, which run many. */
+  template <typename Task, typename TaskParameters>
   void
-  execute_scene(const Supple::CommandLine &line)
+  execute_task(const Supple::CommandLine &line)
   {
-    const auto parameters = Supple::Parameters::read(line.scene, line.overrides);
+    const auto parameters = TaskParameters::read(line.scene, line.overrides);
     const auto folder     = line.output.empty() ? parameters.output_folder() : line.output;
-    Supple::Simulation simulation(parameters, folder, line.quiet, MPI_COMM_WORLD);
+    Task task(parameters, folder, line.quiet, MPI_COMM_WORLD);
     if (line.action == Supple::CommandLine::Action::run)
-      simulation.run();
+      task.run();
     else
-      simulation.print_description(true);
-  }
-
-
-  void
-  execute_study(const Supple::CommandLine &line)
-  {
-    const auto parameters = Supple::StudyParameters::read(line.scene, line.overrides);
-    const auto folder =
-      line.output.empty() ? Supple::Study::output_folder(parameters) : line.output;
-    Supple::Study study(parameters, folder, line.quiet, MPI_COMM_WORLD);
-    if (line.action == Supple::CommandLine::Action::run)
-      study.run();
-    else
-      study.check();
-  }
-
-
-  void
-  execute_identification(const Supple::CommandLine &line)
-  {
-    const auto parameters = Supple::IdentificationParameters::read(line.scene, line.overrides);
-    const auto folder =
-      line.output.empty() ? Supple::Identification::output_folder(parameters) : line.output;
-    Supple::Identification identification(parameters, folder, line.quiet, MPI_COMM_WORLD);
-    if (line.action == Supple::CommandLine::Action::run)
-      identification.run();
-    else
-      identification.check();
+      task.check();
   }
 
 
   void
   execute(const Supple::CommandLine &line, const bool root)
   {
-    using Action = Supple::CommandLine::Action;
+    using namespace Supple;
+    using Action = CommandLine::Action;
     switch (line.action)
       {
         case Action::print_help:
           if (root)
-            std::cout << Supple::CommandLine::help();
+            std::cout << CommandLine::help();
           return;
         case Action::print_version:
           if (root)
@@ -79,16 +54,16 @@ namespace
           return;
         case Action::print_parameters:
           if (root)
-            Supple::Parameters::print_reference(std::cout, line.format);
+            Parameters::print_reference(std::cout, line.format);
           return;
         case Action::check:
         case Action::run:
-          if (Supple::StudyParameters::is_study(line.scene))
-            execute_study(line);
-          else if (Supple::IdentificationParameters::is_identification(line.scene))
-            execute_identification(line);
+          if (StudyParameters::is_study(line.scene))
+            execute_task<Study, StudyParameters>(line);
+          else if (IdentificationParameters::is_identification(line.scene))
+            execute_task<Identification, IdentificationParameters>(line);
           else
-            execute_scene(line);
+            execute_task<Simulation, Parameters>(line);
       }
   }
 } // namespace

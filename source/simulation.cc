@@ -1,6 +1,7 @@
 #include <supple/error.h>
 #include <supple/expression.h>
 #include <supple/interrupt.h>
+#include <supple/output_folder.h>
 #include <supple/report.h>
 #include <supple/simulation.h>
 #include <supple/summary.h>
@@ -320,30 +321,15 @@ namespace Supple
       frames = std::make_unique<Frames>(body, parameters.output, folder);
     resume();
 
-    std::string problem;
-    if (Utilities::MPI::this_mpi_process(communicator) == 0)
-      try
-        {
-          if (!resumed)
-            clear_folder();
-          std::ostringstream used;
-          parameters.print(used);
-          write_whole_file(folder + "/parameters.prm", used.str());
-          if (writes_history)
-            open_tables();
-        }
-      catch (const InputError &error)
-        {
-          problem = error.what();
-        }
-      catch (const std::exception &exception)
-        {
-          problem = "The output folder " + folder + " can't be written (" + exception.what() +
-                    "). Name another one with --output.";
-        }
-    problem = Utilities::MPI::broadcast(communicator, problem);
-    if (!problem.empty())
-      throw InputError(problem);
+    prepare_output_folder(folder, communicator, [&] {
+      if (!resumed)
+        clear_folder();
+      std::ostringstream used;
+      parameters.print(used);
+      write_whole_file(folder + "/parameters.prm", used.str());
+      if (writes_history)
+        open_tables();
+    });
   }
 
 

@@ -174,8 +174,7 @@ namespace Supple
   StaticEquilibrium::find_equilibrium(Vector &u, const double load_factor, StepReport &report)
   {
     const TimeParameters &settings = model.parameters.time;
-    const bool constant            = model.body.rotation == RotationMethod::none; // the operator
-    const bool linear              = constant && !model.loads.follow();
+    const bool linear              = model.forces_are_linear();
 
     if (model.constraints.move())
       model.constraints.set_displacement(u, load_factor);
@@ -200,7 +199,7 @@ namespace Supple
             throw ComputationError(text.str());
           }
 
-        if (constant)
+        if (model.body.rotation == RotationMethod::none)
           {
             if (!prepared)
               assemble(u, Tangent::frozen);

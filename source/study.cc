@@ -1,7 +1,9 @@
 #include <supple/study.h>
 
+#include <supple/digits.h>
 #include <supple/error.h>
 #include <supple/interrupt.h>
+#include <supple/output_folder.h>
 #include <supple/progress.h>
 #include <supple/report.h>
 #include <supple/tables.h>
@@ -39,13 +41,6 @@ namespace Supple
     table.judged      = quantities.has_condition();
     table.targets     = parameters.targets;
     state_facts();
-  }
-
-
-  std::string
-  Study::output_folder(const StudyParameters &parameters)
-  {
-    return "output/" + parameters.name;
   }
 
 
@@ -97,9 +92,7 @@ namespace Supple
   void
   Study::state_facts()
   {
-    table.facts.push_back(
-      "Scene: `" + parameters.scene_file() + "`" +
-      (parameters.overrides.empty() ? std::string() : ", with `" + parameters.overrides + "`"));
+    table.facts.push_back(parameters.scene_in_words());
     if (!table.error_names.empty())
       table.facts.push_back("Error: " + quantities.error_meaning() + ".");
     const unsigned int n_ranks = n_mpi_processes(communicator);
@@ -116,27 +109,16 @@ namespace Supple
   void
   Study::open_output() const
   {
-    std::string problem;
-    if (root)
-      try
-        {
-          namespace fs = std::filesystem;
-          fs::create_directories(folder);
-          for (const char *name : {"study.csv", "study.md", "report.html"})
-            fs::remove(fs::path(folder) / name);
-          for (const char *plot : {"work_precision", "convergence"})
-            for (const char *ending : {".gp", ".svg", ".png"})
-              fs::remove(fs::path(folder) / (std::string(plot) + ending));
-          write_whole_file(folder + "/study.csv", table.csv());
-        }
-      catch (const std::exception &exception)
-        {
-          problem = "The output folder " + folder + " can't be written (" + exception.what() +
-                    "). Name another one with --output.";
-        }
-    problem = dealii::Utilities::MPI::broadcast(communicator, problem);
-    if (!problem.empty())
-      throw InputError(problem);
+    prepare_output_folder(folder, communicator, [&] {
+      namespace fs = std::filesystem;
+      fs::create_directories(folder);
+      for (const char *name : {"study.csv", "study.md", "report.html"})
+        fs::remove(fs::path(folder) / name);
+      for (const char *plot : {"work_precision", "convergence"})
+        for (const char *ending : {".gp", ".svg", ".png"})
+          fs::remove(fs::path(folder) / (std::string(plot) + ending));
+      write_whole_file(folder + "/study.csv", table.csv());
+    });
   }
 
 
@@ -187,7 +169,7 @@ namespace Supple
         const StudyRecord &record = records.back();
         if (record.status != StudyRecord::Status::done)
           throw ComputationError("The reference (" + run.label() + ") failed: " + record.reason);
-        say("  reference: " + run.label() + ", " + brief(record.seconds) + " s");
+        say("  reference: " + run.label() + ", " + digits(record.seconds, 3) + " s");
       }
     if (records.empty())
       return;

@@ -4,9 +4,7 @@
 #include <supple/patterns.h>
 
 #include <deal.II/base/patterns.h>
-#include <deal.II/base/utilities.h>
 
-#include <filesystem>
 #include <limits>
 
 namespace Supple
@@ -16,14 +14,13 @@ namespace Supple
   namespace
   {
     const std::string section = "Study";
-
-
-    std::string
-    section_of(const Override &override)
-    {
-      return dealii::Utilities::trim(override.text.substr(0, override.text.find('/')));
-    }
   } // namespace
+
+
+  StudyParameters::StudyParameters()
+    : TaskParameters(section)
+  {
+  }
 
 
   bool
@@ -166,32 +163,9 @@ namespace Supple
     StudyParameters study;
     ParameterHandler prm;
     study.declare(prm);
-    study.file = ParameterFile(file);
-    study.name = study.file.name();
-
-    std::vector<Override> own;
-    for (const Override &override : overrides)
-      (section_of(override) == section ? own : study.command_line).push_back(override);
-    study.file.parse(prm, own);
+    study.parse(prm, file, overrides);
     study.check();
     return study;
-  }
-
-
-  std::string
-  StudyParameters::scene_file() const
-  {
-    const std::filesystem::path path(scene);
-    return (path.is_absolute() ? path : std::filesystem::path(file.folder()) / path)
-      .lexically_normal()
-      .string();
-  }
-
-
-  std::string
-  StudyParameters::place(const std::string &entry) const
-  {
-    return file.place(section + "/" + entry) + ": " + section + "/" + entry;
   }
 
 

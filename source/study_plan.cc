@@ -1,5 +1,6 @@
 #include <supple/study_plan.h>
 
+#include <supple/digits.h>
 #include <supple/error.h>
 #include <supple/expression.h>
 
@@ -17,44 +18,6 @@ namespace Supple
 
   namespace
   {
-    std::string
-    exact_text(const double value)
-    {
-      std::ostringstream text;
-      text.precision(17);
-      text << value;
-      return text.str();
-    }
-
-
-    /** Parts set apart by a character, outside of brackets. Doubled, it is an operator of
-     * expressions. */
-    std::vector<std::string>
-    split(const std::string &text, const char separator)
-    {
-      std::vector<std::string> parts(1);
-      int depth = 0;
-      for (std::size_t i = 0; i < text.size(); ++i)
-        {
-          depth += (text[i] == '[') - (text[i] == ']');
-          const bool doubled = (i > 0 && text[i - 1] == separator) ||
-                               (i + 1 < text.size() && text[i + 1] == separator);
-          if (text[i] == separator && depth == 0 && !doubled)
-            parts.emplace_back();
-          else
-            parts.back() += text[i];
-        }
-      return parts;
-    }
-
-
-    void
-    append(std::vector<Override> &list, const std::vector<Override> &more)
-    {
-      list.insert(list.end(), more.begin(), more.end());
-    }
-
-
     /** Names of runs are names of folders and rows: each must be there once. */
     void
     check_names(const std::vector<PlannedRun> &runs, const std::string &place)
@@ -65,17 +28,6 @@ namespace Supple
           throw InputError(place + ": '" + run.label() + "' is there twice.");
     }
   } // namespace
-
-
-  std::vector<Override>
-  override_list(const std::string &text, const std::string &place)
-  {
-    std::vector<Override> list;
-    for (const std::string &part : split(text, '|'))
-      if (!trim(part).empty())
-        list.push_back({trim(part), place});
-    return list;
-  }
 
 
   std::string
@@ -96,7 +48,7 @@ namespace Supple
   study_items(const std::string &text, const std::string &place)
   {
     std::vector<StudyItem> items;
-    for (const std::string &part : split(text, ';'))
+    for (const std::string &part : split_outside_brackets(text, ';'))
       {
         if (trim(part).empty())
           continue;
@@ -121,15 +73,9 @@ namespace Supple
     : kind(!study.methods.empty()  ? Kind::methods
            : !study.levels.empty() ? Kind::levels
                                    : Kind::cases)
-    , base([&] {
-      std::vector<Override> overrides = override_list(study.overrides, study.place("Overrides"));
-      append(overrides, study.command_line);
-      return Parameters::read(study.scene_file(), overrides);
-    }())
-    , scene_file(study.scene_file())
-    , common(override_list(study.overrides, study.place("Overrides")))
+    , base(study.read_scene())
+    , task(study)
   {
-    append(common, study.command_line);
     switch (kind)
       {
         case Kind::methods:
@@ -148,9 +94,7 @@ namespace Supple
   Parameters
   StudyPlan::parameters(const PlannedRun &run) const
   {
-    std::vector<Override> overrides = common;
-    append(overrides, run.overrides);
-    return Parameters::read(scene_file, overrides);
+    return task.read_scene(run.overrides);
   }
 
 
@@ -172,7 +116,7 @@ namespace Supple
     run.overrides.push_back({"Time/Method=" + (ida ? "ida" : item.name), place});
     if (ida)
       run.overrides.push_back({"Time/Maximum order=" + found[1].str(), place});
-    append(run.overrides, item.overrides);
+    run.overrides.insert(run.overrides.end(), item.overrides.begin(), item.overrides.end());
 
     if (word == "tolerance")
       {
@@ -183,7 +127,7 @@ namespace Supple
             run.curve += ", variable steps";
             run.overrides.push_back({"Time/Variable steps=true", place});
           }
-        run.overrides.push_back({"Time/Relative tolerance=" + exact_text(value), place});
+        run.overrides.push_back({"Time/Relative tolerance=" + digits(value, all_digits), place});
         return run;
       }
 
@@ -201,7 +145,7 @@ namespace Supple
         throw InputError(text.str());
       }
     run.overrides.push_back({"Time/Variable steps=false", place});
-    run.overrides.push_back({"Time/Step=" + exact_text(value), place});
+    run.overrides.push_back({"Time/Step=" + digits(value, all_digits), place});
     run.overrides.push_back({"Time/Steps=" + std::to_string(std::lround(n_steps)), place});
     return run;
   }
@@ -260,8 +204,10 @@ namespace Supple
           PlannedRun run;
           run.series = run.curve = variant.name;
           run.name               = level.name;
-          run.overrides          = level.overrides;
-          append(run.overrides, variant.overrides);
+          for (const StudyItem *item : {&level, &variant})
+            run.overrides.insert(run.overrides.end(),
+                                 item->overrides.begin(),
+                                 item->overrides.end());
           char *end         = nullptr;
           const double size = std::strtod(level.name.c_str(), &end);
           if (*end == '\0' && size > 0.)

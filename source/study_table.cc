@@ -1,3 +1,4 @@
+#include <supple/digits.h>
 #include <supple/study_table.h>
 
 #include <algorithm>
@@ -5,7 +6,6 @@
 #include <cstdio>
 #include <limits>
 #include <regex>
-#include <sstream>
 
 namespace Supple
 {
@@ -27,11 +27,7 @@ namespace Supple
       void
       add(const double number, const std::string &shown)
       {
-        std::ostringstream text;
-        text.precision(10);
-        if (std::isfinite(number))
-          text << number;
-        csv.push_back(text.str());
+        csv.push_back(std::isfinite(number) ? digits(number, 10) : "");
         markdown.push_back(std::isfinite(number) ? shown : "");
       }
 
@@ -118,9 +114,7 @@ namespace Supple
           Column column{table.value_names[i], table.value_names[i], {}, {}};
           for (const StudyRow &row : table.rows)
             {
-              std::ostringstream shown;
-              shown << at(row.values, i);
-              column.add(at(row.values, i), shown.str());
+              column.add(at(row.values, i), digits(at(row.values, i), 6));
             }
           columns.push_back(column);
         }
@@ -163,7 +157,7 @@ namespace Supple
         {
           const bool ran = row.status != StudyRecord::Status::refused;
           seconds.add(ran ? row.seconds : std::numeric_limits<double>::quiet_NaN(),
-                      brief(row.seconds));
+                      digits(row.seconds, 3));
           steps.add(row.steps, ran ? std::to_string(row.steps) : "");
           rejected.add(row.rejected, ran ? std::to_string(row.rejected) : "");
           failed.add(row.failed, ran ? std::to_string(row.failed) : "");
@@ -195,18 +189,9 @@ namespace Supple
 
 
   std::string
-  brief(const double number)
-  {
-    char text[32];
-    std::snprintf(text, sizeof(text), "%.3g", number);
-    return text;
-  }
-
-
-  std::string
   percent(const double part)
   {
-    return brief(100. * part) + " %";
+    return digits(100. * part, 3) + " %";
   }
 
 
@@ -290,7 +275,7 @@ namespace Supple
         if (target < reference_error)
           text += "the reference is not known that well";
         else if (best)
-          text += best->run.label() + ", " + brief(best->seconds) + " s";
+          text += best->run.label() + ", " + digits(best->seconds, 3) + " s";
         else
           text += "none of these runs";
         list.push_back(text);
@@ -367,7 +352,7 @@ namespace Supple
       {
         if (!row.errors.empty())
           results += percent(row.error()) + ", ";
-        results += brief(row.seconds) + " s, " + std::to_string(row.steps) + " steps";
+        results += digits(row.seconds, 3) + " s, " + std::to_string(row.steps) + " steps";
         if (!row.verdict.empty())
           results += ", " + row.verdict;
       }

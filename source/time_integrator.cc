@@ -1,5 +1,7 @@
 #include <supple/arkode_integrator.h>
+#include <supple/body.h>
 #include <supple/ida_integrator.h>
+#include <supple/loads.h>
 #include <supple/static_equilibrium.h>
 #include <supple/time_integrator.h>
 
@@ -12,6 +14,13 @@ namespace Supple
     , model(model)
   {
     model.body.initialize(reaction);
+  }
+
+
+  bool
+  Model::forces_are_linear() const
+  {
+    return body.rotation == RotationMethod::none && !loads.follow();
   }
 
 

@@ -14,32 +14,12 @@
 #include <map>
 #include <random>
 
+#include "driver/checks.h"
+
 using namespace Supple;
 
 namespace
 {
-  using Nodal = std::vector<double>;
-
-  void
-  report(const char *what, const double value, const double limit)
-  {
-    if (value <= limit)
-      std::printf("  %s: at most %.0e\n", what, limit);
-    else
-      std::printf("  %s: %e is more than %.0e\n", what, value, limit);
-  }
-
-
-  double
-  norm(const Nodal &v)
-  {
-    double sum = 0.;
-    for (const double x : v)
-      sum += x * x;
-    return std::sqrt(sum);
-  }
-
-
   SerialMesh
   regular_mesh(const Geometry geometry)
   {

@@ -12,39 +12,12 @@
 #include <functional>
 #include <random>
 
+#include "driver/checks.h"
+
 using namespace Supple;
 
 namespace
 {
-  using Nodal = std::vector<double>;
-
-  void
-  report(const char *what, const double value, const double limit)
-  {
-    if (value <= limit)
-      std::printf("%s: at most %.0e\n", what, limit);
-    else
-      std::printf("%s: %e is more than %.0e\n", what, value, limit);
-  }
-
-
-  void
-  report_larger(const char *what, const double value, const double limit)
-  {
-    std::printf("%s: %s %.0e\n", what, value > limit ? "more than" : "NOT more than", limit);
-  }
-
-
-  double
-  norm(const Nodal &v)
-  {
-    double sum = 0.;
-    for (const double x : v)
-      sum += x * x;
-    return std::sqrt(sum);
-  }
-
-
   struct JitteredBox
   {
     SerialMesh mesh;

@@ -51,10 +51,6 @@ namespace Supple
     accept_step() override;
 
     /** Stages are one linear system each, or Newton's method. */
-    /** In the displacement. */
-    bool
-    forces_are_linear() const;
-
     void
     set_linear(bool linear);
 

@@ -35,10 +35,6 @@ namespace Supple
     void
     run();
 
-    /** Where results go unless the command line says otherwise. */
-    static std::string
-    output_folder(const IdentificationParameters &parameters);
-
   private:
     void
     open_output() const;

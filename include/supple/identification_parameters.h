@@ -2,8 +2,8 @@
 #define supple_identification_parameters_h
 
 #include <supple/measurements.h>
-#include <supple/parameter_file.h>
 #include <supple/surface_response.h>
+#include <supple/task_parameters.h>
 
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@ namespace Supple
 {
   /** What an identification file says: subsection Identification, and nothing else. All lengths in
    * it are in its unit. */
-  struct IdentificationParameters
+  struct IdentificationParameters : TaskParameters
   {
     enum class Unit
     {
@@ -28,8 +28,6 @@ namespace Supple
       root_of_squares
     };
 
-    std::string scene; ///< parameter file, as written; relative to the folder of this one
-    std::string overrides;
     std::string profile = "skin"; ///< name of one of the scene's profiles
     std::string measurements;     ///< CSV file, as written
     std::vector<unsigned int> sets;
@@ -44,8 +42,9 @@ namespace Supple
     Total fitted     = Total::root_of_squares;
     double tolerance = 0.1;
 
-    std::string name;                   ///< of the file, without folder and ending
-    std::vector<Override> command_line; ///< what is set in the scene beside the overrides
+    std::vector<MeasuredSet> measured; ///< the sets that count
+
+    IdentificationParameters();
 
     /** Whether a file is an identification and not a scene. @throws InputError */
     static bool
@@ -61,10 +60,6 @@ namespace Supple
     void
     declare(dealii::ParameterHandler &prm);
 
-    /** A file it names, from where the program was started. */
-    std::string
-    path(const std::string &as_written) const;
-
     /** [m] */
     double
     unit_length() const;
@@ -77,14 +72,6 @@ namespace Supple
     static std::vector<std::string>
     total_names();
 
-    /** @throws InputError */
-    std::vector<MeasuredSet>
-    measured_sets() const;
-
-    /** Where an entry got its value, to begin a message with. */
-    std::string
-    place(const std::string &entry) const;
-
   private:
     void
     declare_comparison(dealii::ParameterHandler &prm);
@@ -95,7 +82,8 @@ namespace Supple
     void
     check() const;
 
-    ParameterFile file;
+    void
+    check_start_depths() const;
   };
 } // namespace Supple
 

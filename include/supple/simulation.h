@@ -94,11 +94,18 @@ namespace Supple
       return summary_text;
     }
 
-    /** What would be run, as a table; in detail with what was found in the mesh. */
+    /** Says what would be run, as a table, with what was found in the mesh; runs nothing. */
+    void
+    check() const
+    {
+      print_description(true);
+    }
+
+  private:
+    /** What is run, as a table; in detail with what was found in the mesh. */
     void
     print_description(bool in_detail) const;
 
-  private:
     /** What the integrator works with. */
     Model
     model();

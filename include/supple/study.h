@@ -44,10 +44,6 @@ namespace Supple
     void
     run();
 
-    /** Where results go unless the command line says otherwise. */
-    static std::string
-    output_folder(const StudyParameters &parameters);
-
   private:
     /** Of all runs and references. @throws InputError */
     void

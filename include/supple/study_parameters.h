@@ -1,7 +1,7 @@
 #ifndef supple_study_parameters_h
 #define supple_study_parameters_h
 
-#include <supple/parameter_file.h>
+#include <supple/task_parameters.h>
 
 #include <string>
 #include <vector>
@@ -9,11 +9,8 @@
 namespace Supple
 {
   /** What a study file says: subsection Study, and nothing else. */
-  struct StudyParameters
+  struct StudyParameters : TaskParameters
   {
-    std::string scene; ///< parameter file, as written; relative to the folder of the study
-    std::string overrides;
-
     // One of these three says what is compared.
     std::string methods;
     std::string levels;
@@ -29,8 +26,7 @@ namespace Supple
     std::vector<double> targets = {0.1, 0.01, 0.001};
     bool histories              = true;
 
-    std::string name;                   ///< of the file, without folder and ending
-    std::vector<Override> command_line; ///< what is set in all runs beside the overrides
+    StudyParameters();
 
     /** Whether a file is a study and not a scene: it has a subsection Study. @throws InputError */
     static bool
@@ -46,14 +42,6 @@ namespace Supple
     void
     declare(dealii::ParameterHandler &prm);
 
-    /** The scene's file, from where the program was started. */
-    std::string
-    scene_file() const;
-
-    /** Where an entry of subsection Study got its value, to begin a message with. */
-    std::string
-    place(const std::string &entry) const;
-
   private:
     void
     declare_runs(dealii::ParameterHandler &prm);
@@ -63,8 +51,6 @@ namespace Supple
 
     void
     check() const;
-
-    ParameterFile file;
   };
 } // namespace Supple
 

@@ -39,12 +39,6 @@ namespace Supple
   };
 
 
-  /** "Section/Entry=value | Section/Entry=value", taken apart. @param place of what is wrong in it
-   */
-  std::vector<Override>
-  override_list(const std::string &text, const std::string &place);
-
-
   /** Items set apart by semicolons outside of brackets. @throws InputError */
   std::vector<StudyItem>
   study_items(const std::string &text, const std::string &place);
@@ -96,8 +90,7 @@ namespace Supple
                const std::string &number,
                const std::string &place) const;
 
-    const std::string scene_file;
-    std::vector<Override> common;
+    const TaskParameters task;
   };
 } // namespace Supple
 

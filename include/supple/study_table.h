@@ -82,11 +82,6 @@ namespace Supple
   percent(double part);
 
 
-  /** With three digits. */
-  std::string
-  brief(double number);
-
-
   /**
    * Writes scripts for gnuplot with the data in them, and has them draw SVG and PNG: error against
    * run time, and error against step or cell size.

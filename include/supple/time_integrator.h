@@ -45,6 +45,10 @@ namespace Supple
     LinearSolver &solver;
     const Parameters &parameters;
     Effort &effort;
+
+    /** Whether the operator stays and the loads follow no displacement. */
+    bool
+    forces_are_linear() const;
   };
 
 
