@@ -187,6 +187,8 @@ namespace Supple
         triangulation.create_triangulation(
           TriangulationDescription::Utilities::create_description_from_triangulation(serial,
                                                                                      communicator));
+        if (patch_of.empty())
+          serial.clear(); // hundreds of bytes a cell
         dof_handler.distribute_dofs(fe);
 
         partitioner =

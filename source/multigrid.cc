@@ -11,7 +11,7 @@ namespace Supple
   {
     // Measured on the bar (benchmarks/bar).
     constexpr unsigned int patch_size           = 15; // nodes in an aggregate of a coarse level
-    constexpr unsigned int largest_inverse      = 30; // nodes of a level that is inverted
+    constexpr unsigned int largest_inverse      = 80; // nodes of a level that is inverted
     constexpr unsigned int largest_level_number = 20;
 
     void
@@ -139,7 +139,7 @@ namespace Supple
       }
     const Eigen::LLT<Eigen::MatrixXd> factorization(full); // of the lower half
     require_positive(factorization.info() == Eigen::Success, halo);
-    level.inverse = factorization.solve(Eigen::MatrixXd::Identity(n, n));
+    level.inverse = factorization.solve(Eigen::MatrixXd::Identity(n, n)).cast<float>();
     level.right_hand_side.resize(n);
     level.solution.resize(n);
   }

@@ -76,8 +76,8 @@ namespace Supple
       const CoarseMatrix &matrix;
       BlockSmoother<6> smoother;
       std::unique_ptr<Coarsening<6>> coarsening;
-      Eigen::MatrixXd inverse;
-      Eigen::VectorXd right_hand_side, solution; ///< of the inverse
+      Eigen::MatrixXf inverse;
+      Eigen::VectorXf right_hand_side, solution; ///< of the inverse
       std::vector<NodeValues<6>> x, b, residual;
     };
 
