@@ -111,9 +111,10 @@ namespace Supple
   require_readable_format(const std::string &file)
   {
     namespace fs = std::filesystem;
-    if (fs::is_directory(file))
+    std::error_code unreadable; // a name that is too long is no exception
+    if (fs::is_directory(file, unreadable))
       throw InputError("this is a folder.");
-    if (!fs::is_regular_file(file))
+    if (!fs::is_regular_file(file, unreadable))
       throw InputError("there is no such file.");
 
     const std::string ending = ending_of(file);

@@ -54,6 +54,11 @@ namespace Supple
     Lines
     find_lines(const std::string &file, const std::string &text)
     {
+      // Made once: a regular expression takes longer to make than to match.
+      const std::regex subsection("\\s*subsection\\s+(.*?)\\s*(#.*)?", std::regex::icase);
+      const std::regex end("\\s*end\\s*(#.*)?", std::regex::icase);
+      const std::regex entry("\\s*set\\s+(.*?)\\s*=.*", std::regex::icase);
+
       Lines found_lines;
       std::vector<std::string> sections;
       std::istringstream lines(text);
@@ -62,20 +67,15 @@ namespace Supple
         {
           const std::string place = file + ":" + std::to_string(number);
           std::smatch found;
-          if (std::regex_match(line,
-                               found,
-                               std::regex("\\s*subsection\\s+(.*?)\\s*(#.*)?", std::regex::icase)))
+          if (std::regex_match(line, found, subsection))
             {
               if (sections.empty())
                 found_lines.sections.emplace(found[1], place);
               sections.push_back(found[1]);
             }
-          else if (std::regex_match(line, std::regex("\\s*end\\s*(#.*)?", std::regex::icase)) &&
-                   !sections.empty())
+          else if (std::regex_match(line, end) && !sections.empty())
             sections.pop_back();
-          else if (std::regex_match(line,
-                                    found,
-                                    std::regex("\\s*set\\s+(.*?)\\s*=.*", std::regex::icase)))
+          else if (std::regex_match(line, found, entry))
             {
               std::string path;
               for (const std::string &section : sections)

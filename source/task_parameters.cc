@@ -68,7 +68,8 @@ namespace Supple
     std::vector<Override> list = override_list(overrides, place("Overrides"));
     list.insert(list.end(), command_line.begin(), command_line.end());
     list.insert(list.end(), more.begin(), more.end());
-    if (!std::filesystem::is_regular_file(path(scene)))
+    std::error_code unreadable; // a name that is too long is no exception
+    if (!std::filesystem::is_regular_file(path(scene), unreadable))
       throw InputError(place("Scene") + ": there is no such parameter file: " + path(scene) + ".");
     return Parameters::read(path(scene), list);
   }

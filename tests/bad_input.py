@@ -123,6 +123,7 @@ for name, text in [("long", "set Map = " + "x" * 300000), ("continued", "set Map
     scene.write_text(f"subsection Mesh\n{text}\nend\n")
     status, _, error = runner.run("--check", scene)
     runner.check(status == 1 and "characters; at most 4000 are read" in error and f"{name}.prm:" in error, error[:1000])
+refused([runner.BAR, "--set", "Mesh/Shape=file", "--set", "Mesh/File=" + 400 * "x" + ".msh"], "there is no such file")
 circle, other = folder / "circle.prm", folder / "other.prm"
 for first, second, words in [(circle, circle, "circle.prm includes itself"), (other, circle, "circle.prm includes itself"),
                              (folder / "no-such", circle, "there is no file")]:
