@@ -27,3 +27,11 @@ two = runner.simulate(runner.BAR, static, ranks=2)
 probes = runner.largest_difference(one.probes(), two.probes(), ["n28.ux", "n28.uy", "n28.uz", "clamp.fz"])
 runner.check(probes <= 1e-8, f"the static solutions differ by {probes}")
 print(f"static: probes within {probes:.1e}")
+
+# A process for each cell: some of them own no vertex, and METIS alone would leave one without a cell.
+few = {"Mesh/Box cubes": "1, 1, 1", "Probes/Points": "tip: 0, 0, 0", "Solver/Tolerance": 1e-12, "Time/Steps": 5}
+one = runner.simulate(runner.BAR, few)
+six = runner.simulate(runner.BAR, few, ranks=6)
+probes = runner.largest_difference(one.probes(), six.probes(), ["tip.ux", "tip.uy", "tip.uz"])
+runner.check(probes <= 1e-8, f"six processes for six cells differ by {probes}")
+print(f"six processes: probes within {probes:.1e}")

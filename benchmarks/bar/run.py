@@ -51,7 +51,7 @@ def plot(runs, picture):
                for i, phase in enumerate(PHASES)]
     curves.append(f"{columns[-1][1]} * x / {columns[-1][0]} with lines dashtype 2 lc 'grey' title 'proportional to size'")
     script = (f"set terminal svg size 720, 480 background 'white'\nset output '{picture}'\n"
-              f"set logscale xy\nset format y '10^{{%L}}'\nset xlabel 'tetrahedra'\nset ylabel 'seconds'\n"
+              f"set logscale xy\nset format xy '10^{{%L}}'\nset xlabel 'tetrahedra'\nset ylabel 'seconds'\n"
               f"set key left top\nset grid\n$data << end\n{data}\nend\nplot " + ", ".join(curves) + "\n")
     subprocess.run(["gnuplot"], input=script, text=True, check=True)
 
