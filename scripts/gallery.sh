@@ -55,7 +55,7 @@ show vein-test-5 vein/test-5 "${lying[@]}" --times 0.02 0.05 0.5 --enlarge 20 --
   --field displacement_2 --title "displacement along z" --range -0.000024 0.000024
 show vein-pulse vein/pulse "${lying[@]}" --times 0 0.355 0.9 --enlarge 4 --field displacement --width 1000 \
   --instants "at rest" "systole, t = 0.355 s" "diastole, t = 0.9 s"
-show needle skin/needle --times 0.1667 0.3333 0.5 --camera 0.5 0.75 1 --up 0 1 0 --range 0 80e3 --width 1500
+show needle skin/needle --times 0.1667 0.3333 0.5 --camera 0.5 0.75 1 --up 0 1 0 --range 0 100e3 --width 1500
 settings=Time/Steps=2 show thick-cylinder validation/thick-cylinder "${loading[@]}" --enlarge 150
 
 volumes volumes-mushroom mushroom/mushroom-linear mushroom/mushroom

@@ -41,7 +41,8 @@ namespace Supple
     std::string
     tics(const std::string &axis, const std::vector<std::string> &names)
     {
-      std::string text = "set " + axis + "tics (";
+      std::string text =
+        "set " + axis + "tics " + (names.size() > 15 ? "font \"Helvetica,10\" (" : "(");
       for (std::size_t i = 0; i < names.size(); ++i)
         text += (i == 0 ? "" : ", ") + quoted(names[i]) + " " + std::to_string(i);
       return text + ")\n";
@@ -61,7 +62,7 @@ namespace Supple
     {
       std::vector<std::string> names;
       for (const double number : numbers)
-        names.push_back(digits(number / unit, 4));
+        names.push_back(digits(number / unit, number / unit < 1e4 ? 4 : all_digits));
       return names;
     }
 
@@ -131,17 +132,17 @@ namespace Supple
            << "\nset logscale cb\nset cbtics (" << tics_between(table, error) << ")\nunset key\n"
            << "set palette defined (0 \"#78c679\", 1 \"#c2e699\", 2 \"#fafaf0\", 3 \"#fdd9b0\", "
               "4 \"#f4ad6e\")\n"
-           << "set style fill solid noborder\nset xrange [-0.5:" << n_columns - 0.5
-           << "]\nset yrange [-0.5:" << n_rows - 0.5 << "]\n";
+           << "set xrange [-0.5:" << n_columns - 0.5 << "]\nset yrange [-0.5:" << n_rows - 0.5
+           << "]\n";
       const std::string size = n_rows * n_columns > 200 ? "11" : "14";
-      return text.str() +
-             foot(plot,
-                  "plot $errors using 1:2:(0.5):(0.5):3 with boxxyerror fc palette, \\\n"
-                  "  $errors using 1:2:4 with labels font \"Helvetica," +
-                    size +
-                    "\", \\\n"
-                    "  $best using 1:2:(0.47):(0.47) with boxxyerror fs empty border lc rgb "
-                    "\"black\" lw 3\n");
+      return text.str() + foot(plot,
+                               "plot $errors using 1:2:(0.5):(0.5):3 with boxxyerror fs solid "
+                               "noborder fc palette, \\\n"
+                               "  $errors using 1:2:4 with labels font \"Helvetica," +
+                                 size +
+                                 "\", \\\n"
+                                 "  $best using 1:2:(0.47):(0.47) with boxxyerror fs empty lw 3 lc "
+                                 "rgb \"black\"\n");
     }
 
 

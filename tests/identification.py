@@ -3,7 +3,10 @@
 import csv
 import math
 import pathlib
+import signal
+import subprocess
 import tempfile
+import time
 
 import runner
 
@@ -145,6 +148,23 @@ for tolerance in 0.05, 0.1, 0.2:
         runner.check(min(outside) > here, f"{name}: {outside} outside of {here}")
     runner.check(n_inside >= 3 or tolerance > 0.1, f"{n_inside} ends inside the bounds: {points}")
 runner.check(extents[0][0] < extents[1][0] < extents[2][0] and extents[0][1] < extents[1][1] < extents[2][1], f"{extents}")
+
+# Interrupted or failed, it leaves what it has, with a note.
+stopped = folder / "stopped"
+process = subprocess.Popen([runner.SUPPLE, str(SKIN / "fit-plane-strain.prm"), "--output", str(stopped), "--quiet"],
+                           env=runner.ENVIRONMENT, stderr=subprocess.PIPE, text=True)
+while process.poll() is None and not (stopped / "identification.csv").exists():
+    time.sleep(0.1)
+time.sleep(2)
+process.send_signal(signal.SIGINT)
+_, error = process.communicate(timeout=100)
+runner.check(process.returncode == 2 and "Interrupted after" in error, f"{process.returncode} {error}")
+report = (stopped / "identification.md").read_text()
+runner.check("**Not complete. Interrupted after" in report and "| thickness | 1.5 |" in report, report)
+n_pairs = len(runner.Results(stopped).table("identification.csv"))
+runner.check(f"after {n_pairs} pairs" in error, f"{n_pairs} {error}")
+if n_pairs > 0:
+    runner.check({"errors_set_1.svg", "profiles.png", "profiles.csv"} <= {path.name for path in stopped.iterdir()}, "no plots")
 
 # What can be wrong, each told in one message with its place.
 right = {"Scene": SKIN / "thesis.prm", "Measurements": SKIN / "fingertip.csv", "Thicknesses": "0.75, 1.5",
