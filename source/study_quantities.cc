@@ -428,11 +428,11 @@ namespace Supple
     std::regex_match(run.right_if,
                      parts,
                      std::regex("(.*?)(\\s+or\\s+(?:(.+?)\\s+with\\s+)?warning\\s+(.*\\S)\\s*)?"));
-    if (holds(parts[1], values, above))
-      return "right";
     const std::string less = parts[3], words = parts[4];
     const bool enough = less.empty() || holds(less, values, above);
-    const bool told   = enough && !words.empty() &&
+    if (holds(parts[1], values, above))
+      return "right";
+    const bool told = enough && !words.empty() &&
                       std::any_of(warnings.begin(), warnings.end(), [&](const std::string &text) {
                         return text.find(words) != std::string::npos;
                       });
