@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs all tests with AddressSanitizer and UndefinedBehaviorSanitizer: scripts/test-sanitized.sh [options of ctest].
-# A report ends the program with exit status 97 or 98, so that the test fails. Six times slower than scripts/test.sh.
+# A report ends the program with exit status 97 or 98, so that the test fails.
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 install_missing run test
