@@ -23,7 +23,7 @@ def files():
                             capture_output=True, text=True, check=True).stdout
     paths = [ROOT / name for name in listed.split("\n") if name]
     return sorted(path for path in paths if path.is_file() and path.suffix not in NO_TEXT
-                  and path.parent.name not in ("built", "data") and path.name != "LICENSE")
+                  and "data" not in path.parts and path.parent.name != "built" and path.name != "LICENSE")
 
 
 def functions_of_cpp(lines):

@@ -73,6 +73,24 @@ namespace Supple
     }
 
 
+    Json
+    solutions(const Model &model)
+    {
+      const LinearSolver &solver = model.solver;
+      const Effort &effort       = model.effort;
+      Json json                  = {{"name", solver.name()},
+                                    {"reason", solver.reason},
+                                    {"tolerance", model.parameters.solver.tolerance},
+                                    {"max_relative_residual", effort.max_relative_residual},
+                                    {"solves", effort.solves},
+                                    {"iterations", effort.linear_iterations},
+                                    {"newton_iterations", effort.newton_iterations}};
+      if (!solver.stand_in_name().empty())
+        json["stand_in"] = {{"name", solver.stand_in_name()}, {"solves", effort.stand_in_solves}};
+      return json;
+    }
+
+
     /** Cube root of the volume per cell, or square root of the area per triangle [m]. */
     double
     cell_size(const Mesh &mesh)
@@ -107,16 +125,7 @@ namespace Supple
       json["stable_step"] = {{"step", stable_step->step},
                              {"frequency", stable_step->frequency},
                              {"limit", stable_step->limit}};
-    json["solver"] = {{"name", model.solver.name()},
-                      {"reason", model.solver.reason},
-                      {"tolerance", model.parameters.solver.tolerance},
-                      {"max_relative_residual", effort.max_relative_residual},
-                      {"solves", effort.solves},
-                      {"iterations", effort.linear_iterations},
-                      {"newton_iterations", effort.newton_iterations}};
-    if (!model.solver.stand_in_name().empty())
-      json["solver"]["stand_in"] = {{"name", model.solver.stand_in_name()},
-                                    {"solves", effort.stand_in_solves}};
+    json["solver"] = solutions(model);
 
     json["steps"]            = steps;
     json["rejected_steps"]   = effort.rejected_steps;
