@@ -21,6 +21,11 @@ namespace Supple
     // It does not come forward if it needs more iterations for that.
     constexpr unsigned int single_precision_iterations = 100;
 
+    // How much of the residual a first guess leaves at most, and up to how many degrees of freedom
+    // there is one: of a bar of 98304 tetrahedra it saves nothing.
+    constexpr double largest_guess_residual   = 0.5;
+    constexpr unsigned int largest_guess_size = 50000;
+
     // What the coarse levels cost to compute, in iterations, measured on the bar.
     constexpr double refresh_cost = 12.;
 
@@ -61,14 +66,14 @@ namespace Supple
         const double rate = n_iterations / reduction;
         if (new_rate[guessed] == 0.)
           new_rate[guessed] = mean_rate[guessed] = rate;
-        mean_rate[guessed] += weight * (rate - mean_rate[guessed]);
+        mean_rate[guessed] += (guessed ? weight : 1.) * (rate - mean_rate[guessed]);
         excess = (mean_rate[guessed] - new_rate[guessed]) * reduction;
         excess_sum += excess;
         ++n_solves;
       }
 
     private:
-      static constexpr double weight = 0.25; ///< of a solution in the mean of the last ones
+      static constexpr double weight = 0.25; ///< of a guessed solution in the mean of the last ones
 
       unsigned int n_solves          = 0;
       std::array<double, 2> new_rate = {}, mean_rate = {}; ///< iterations for a reduction by e
@@ -146,6 +151,7 @@ namespace Supple
         , z(A.body.n_local)
         , p(A.body.n_local)
         , q(A.body.n_local)
+        , guesses(!A.body.patches && A.body.n_dofs() <= largest_guess_size)
         , previous(A.body)
       {
       }
@@ -197,7 +203,7 @@ namespace Supple
         const unsigned int n_iterations =
           A.body.patches ? solve_from_zero(x, b, residual, DoublePrecision(multigrid, r, z))
                          : solve_in_single_precision(x, b, residual, before);
-        if (!A.body.patches)
+        if (guesses)
           previous.add(x, b, residual);
         rule.solved(n_iterations, std::log(before / residual.l2_norm()), before < size);
         return n_iterations;
@@ -210,7 +216,7 @@ namespace Supple
         if (previous.guess(x, b))
           {
             const double norm = set_residual(residual, x, b);
-            if (norm < 0.5 * size)
+            if (norm < largest_guess_residual * size)
               return norm;
           }
         x        = 0.;
@@ -320,7 +326,8 @@ namespace Supple
       const std::size_t n_owned;
       std::vector<double> rigid_motions;
       NodeVector correction, r, z, p, q;
-      PreviousSolutions previous;
+      const bool guesses;
+      PreviousSolutions previous; ///< none without guesses
       double last_rho       = 0.; ///< r.z of the last iteration
       double last_curvature = 0.; ///< p.q of the last iteration
     };
