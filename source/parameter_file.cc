@@ -87,17 +87,17 @@ namespace Supple
     }
 
 
-    constexpr std::size_t longest_line = 4000;
+    // Regular expressions call themselves for each letter, with half a kilobyte of the stack: what
+    // is too long for them ends the program.
+    constexpr std::size_t longest_line = 4000, longest_joined_line = 12000;
 
-    /** Regular expressions, here and in deal.II, call themselves for each letter: a line that is
-     * too long for them ends the program.
-     * @param place of the line */
+    /** @param place of the line */
     void
-    require_short_line(const std::size_t length, const std::string &place)
+    require_length(const std::size_t length, const std::size_t longest, const std::string &place)
     {
-      if (length > longest_line)
+      if (length > longest)
         throw InputError(place + ": this line has " + std::to_string(length) +
-                         " characters; at most " + std::to_string(longest_line) + " are read.");
+                         " characters; at most " + std::to_string(longest) + " are read.");
     }
 
 
@@ -126,8 +126,9 @@ namespace Supple
       for (unsigned int number = 1; std::getline(lines, line); ++number)
         {
           const std::string place = file + ":" + std::to_string(number);
-          joined += line          = dealii::Utilities::trim(line);
-          require_short_line(joined.size(), place);
+          require_length(line.size(), longest_line, place);
+          joined += line = dealii::Utilities::trim(line);
+          require_length(joined.size(), longest_joined_line, place);
           if (!line.empty() && line.back() == '\\')
             {
               joined.pop_back();
@@ -201,7 +202,7 @@ namespace Supple
   ParameterFile::apply(ParameterHandler &prm, const Override &override)
   {
     const std::string &text = override.text;
-    require_short_line(text.size(), override.place);
+    require_length(text.size(), longest_line, override.place);
     const bool in_a_file   = override.place.find(':') != std::string::npos;
     const std::string here = override.place + (in_a_file ? ": \"" : " \"") + text + "\"";
     const auto equal       = text.find('=');

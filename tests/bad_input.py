@@ -118,11 +118,16 @@ refused([runner.BAR, "--set", "Mesh/Shape=rectangle", "--set", "Mesh/Map=x; y; 1
         "plane z = 0")
 
 # Lines longer than any regular expression bears, in one piece or several; messages stay short and leave the terminal alone.
-for name, text in [("long", "set Map = " + "x" * 300000), ("continued", "set Map = " + ("x" * 99 + "\\\n") * 3000)]:
+for name, text, most in [("long", "set Map = " + "x" * 300000, 4000),
+                         ("continued", "set Map = " + ("x" * 99 + "\\\n") * 3000, 12000)]:
     scene = folder / f"{name}.prm"
     scene.write_text(f"subsection Mesh\n{text}\nend\n")
     status, _, error = runner.run("--check", scene)
-    runner.check(status == 1 and "characters; at most 4000 are read" in error and f"{name}.prm:" in error, error[:1000])
+    runner.check(status == 1 and f"characters; at most {most} are read" in error and f"{name}.prm:" in error, error[:1000])
+scene = folder / "almost.prm"
+scene.write_text("subsection Mesh\nset Map = " + ("x" * 99 + "\\\n") * 120 + "\nend\n")
+status, _, error = runner.run("--check", scene)
+runner.check(status == 1 and "Mesh/Map" in error, error[:1000])
 refused([runner.BAR, "--set", "Mesh/Shape=file", "--set", "Mesh/File=" + 400 * "x" + ".msh"], "there is no such file")
 circle, other = folder / "circle.prm", folder / "other.prm"
 for first, second, words in [(circle, circle, "circle.prm includes itself"), (other, circle, "circle.prm includes itself"),
