@@ -156,6 +156,16 @@ namespace Supple
       {
       }
 
+      void
+      forget() override
+      {
+        built          = false;
+        rule           = {};
+        reduction      = largest_reduction;
+        last_curvature = 0.;
+        previous.clear();
+      }
+
       std::string
       name() const override
       {
