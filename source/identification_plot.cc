@@ -49,6 +49,14 @@ namespace Supple
     }
 
 
+    /** Errors are small beside the lengths: in thousandths of their unit. */
+    std::string
+    meaning_of_errors(const IdentificationTable &table)
+    {
+      return "error [" + std::string(table.unit == "mm" ? "um" : "1e-3 " + table.unit) + "]";
+    }
+
+
     /** An error in thousandths, so short that it fits into its box. */
     std::string
     short_text(const double number)
@@ -67,7 +75,8 @@ namespace Supple
     }
 
 
-    /** Boxes with their errors: column, row, error, error in thousandths; and the best one. */
+    /** Boxes with their errors: column, row, error in thousandths, that as text; and the best one.
+     */
     template <class Number>
     std::string
     heat_data(const IdentificationTable &table, const Number &error)
@@ -80,7 +89,7 @@ namespace Supple
         {
           const double value  = error(table.pairs[k]) / table.unit_length;
           const auto position = std::to_string(k % n_columns) + " " + std::to_string(k / n_columns);
-          text << position << " " << value << " " << short_text(1e3 * value) << "\n";
+          text << position << " " << 1e3 * value << " " << short_text(1e3 * value) << "\n";
           if (value < least)
             best.str(position);
           least = std::min(least, value);
@@ -89,7 +98,7 @@ namespace Supple
     }
 
 
-    /** 1, 2, 5, 10, ... as far as errors reach. */
+    /** 1, 2, 5, 10, ... as far as errors reach, in thousandths. */
     template <class Number>
     std::string
     tics_between(const IdentificationTable &table, const Number &error)
@@ -100,8 +109,8 @@ namespace Supple
           lowest  = std::min(lowest, error(pair));
           highest = std::max(highest, error(pair));
         }
-      lowest /= table.unit_length;
-      highest /= table.unit_length;
+      lowest *= 1e3 / table.unit_length;
+      highest *= 1e3 / table.unit_length;
       std::string text;
       if (lowest > 0.)
         for (double power = std::pow(10., std::floor(std::log10(lowest))); power <= highest;
@@ -128,12 +137,12 @@ namespace Supple
            << tics("y", names_of(table.thicknesses, table.unit_length))
            << "set xlabel \"Young modulus of the upper layer over that of the lower one\"\n"
            << "set ylabel " << quoted("thickness of the upper layer [" + table.unit + "]")
-           << "\nset cblabel " << quoted("error [" + table.unit + "]")
+           << "\nset cblabel " << quoted(meaning_of_errors(table))
            << "\nset logscale cb\nset cbtics (" << tics_between(table, error) << ")\nunset key\n"
            << "set palette defined (0 \"#78c679\", 1 \"#c2e699\", 2 \"#fafaf0\", 3 \"#fdd9b0\", "
               "4 \"#f4ad6e\")\n"
-           << "set xrange [-0.5:" << n_columns - 0.5 << "]\nset yrange [-0.5:" << n_rows - 0.5
-           << "]\n";
+           << "set xrange [-0.5:" << n_columns - 0.5 << "]\nset yrange [" << n_rows - 0.5
+           << ":-0.5]\n";
       const std::string size = n_rows * n_columns > 200 ? "11" : "14";
       return text.str() + foot(plot,
                                "plot $errors using 1:2:(0.5):(0.5):3 with boxxyerror fs solid "
@@ -197,8 +206,7 @@ namespace Supple
     std::vector<std::pair<std::string, std::string>> plots;
     if (table.pairs.empty())
       return "";
-    const std::string meaning =
-      "error [" + std::string(table.unit == "mm" ? "um" : "1e-3 " + table.unit) + "]";
+    const std::string meaning = meaning_of_errors(table);
     for (std::size_t s = 0; s < table.set_numbers.size(); ++s)
       {
         const std::string set = std::to_string(table.set_numbers[s]);

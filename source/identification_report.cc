@@ -30,6 +30,7 @@ namespace Supple
                 {"unit", table.unit},
                 {"sets", table.set_numbers},
                 {"facts", table.facts},
+                {"note", table.note},
                 {"sentences", table.sentences()},
                 {"csv", table.csv()},
                 {"profiles", profiles},

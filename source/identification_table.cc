@@ -26,6 +26,15 @@ namespace Supple
     }
 
 
+    /** Whether a value is the first or the last one of a list. */
+    bool
+    at_end(const std::vector<double> &list, const double value)
+    {
+      const auto near = [value](const double bound) { return std::abs(value / bound - 1.) < 1e-3; };
+      return list.size() > 1 && (near(list.front()) || near(list.back()));
+    }
+
+
     /** Errors of one set, or a total of all, a row for each thickness; nothing where the grid is
      * not done. */
     template <class Number>
@@ -110,10 +119,6 @@ namespace Supple
   bool
   IdentificationTable::on_edge(const LayerPair &pair) const
   {
-    const auto at_end = [](const std::vector<double> &list, const double value) {
-      const auto near = [value](const double bound) { return std::abs(value / bound - 1.) < 1e-3; };
-      return list.size() > 1 && (near(list.front()) || near(list.back()));
-    };
     return at_end(thicknesses, pair.thickness) || at_end(ratios, pair.ratio);
   }
 
@@ -122,6 +127,32 @@ namespace Supple
   IdentificationTable::edge_words(const LayerPair &pair) const
   {
     return on_edge(pair) ? "; on an edge of the grid" : "";
+  }
+
+
+  std::string
+  IdentificationTable::bound_words(const LayerPair &pair) const
+  {
+    const bool thickness = at_end(thicknesses, pair.thickness), ratio = at_end(ratios, pair.ratio);
+    if (thickness && ratio)
+      return " (at the bounds of thickness and ratio)";
+    if (!thickness && !ratio)
+      return "";
+    return std::string(" (at the bound of the ") + (thickness ? "thickness)" : "ratio)");
+  }
+
+
+  std::string
+  IdentificationTable::range_words(const FitResult &found) const
+  {
+    const auto thickness = [&](const LayerPair &pair) {
+      return digits(pair.thickness / unit_length, 3);
+    };
+    return "within " + digits(100. * tolerance, 3) + " % of that from " +
+           thickness(found.thinnest.pair) + bound_words(found.thinnest.pair) + " to " +
+           thickness(found.thickest.pair) + " " + unit + bound_words(found.thickest.pair) +
+           " and from " + ratio_text(found.softest.pair.ratio) + bound_words(found.softest.pair) +
+           " to " + ratio_text(found.hardest.pair.ratio) + bound_words(found.hardest.pair);
   }
 
 
@@ -146,13 +177,10 @@ namespace Supple
     for (const FittedPair &fit : fits)
       {
         const FitResult &found = fit.found;
-        list.push_back("fit of " + fit.of + " : " + words(found.best.pair) + ", " +
-                       length(found.best.value) + " " + unit + "; within " +
-                       digits(100. * tolerance, 3) + " % of that from " +
-                       digits(found.thinnest.pair.thickness / unit_length, 3) + " to " +
-                       digits(found.thickest.pair.thickness / unit_length, 3) + " " + unit +
-                       " and from " + ratio_text(found.softest.pair.ratio) + " to " +
-                       ratio_text(found.hardest.pair.ratio) + edge_words(found.best.pair));
+        list.push_back(
+          "fit of " + fit.of + " : " + words(found.best.pair) + ", " + length(found.best.value) +
+          " " + unit + "; " + range_words(found) +
+          (on_edge(found.best.pair) ? "; the best pair is on an edge of the grid" : ""));
       }
     return list;
   }

@@ -107,7 +107,8 @@ namespace Supple
     const auto lower     = materials.find(1);
     const double lower_poisson =
       lower == materials.end() ? base.material.poisson : lower->second.poisson();
-    const auto exact = [](const double value) { return digits(value, all_digits); };
+    // Messages show this text: 7.5e-07 rather than 7.5000000000000002e-07.
+    const auto exact = [](const double value) { return digits(value, 14); };
     return {exact(pair.thickness) + ", " + exact(height() - pair.thickness),
             "1: " + exact(base.material.young / pair.ratio) + ", " + exact(lower_poisson) + ", " +
               exact(base.material.density)};
@@ -182,19 +183,24 @@ namespace Supple
 
 
   void
-  LayeredModel::throw_not_down(const std::vector<SurfaceResponse::Vertex> &line) const
+  LayeredModel::check_needle(const std::vector<SurfaceResponse::Vertex> &line,
+                             const double needle) const
   {
+    constexpr double play = 1e-6; // of a solution that is not exact
     const auto deepest =
       std::max_element(line.begin(), line.end(), [](const auto &a, const auto &b) {
         return a.depth < b.depth;
       });
+    if (needle > 0. && deepest->depth <= (1. + play) * needle)
+      return;
     if (!(deepest->depth > 0.))
       throw InputError(base.origin("Motion/Displacement") +
                        ": under the needle, at Probes/Profile center, the surface does not go "
                        "down; it must.");
     std::ostringstream text;
     text << base.origin("Probes/Profile center") << ": at " << base.probes.profile_center
-         << " the surface does not go down; it goes down most at x = "
+         << (needle > 0. ? " the surface goes down, but more at x = "
+                         : " the surface does not go down; it goes down most at x = ")
          << base.probes.profile_center[0] + deepest->position
          << ". The center must be where the needle is (Motion/Of).";
     throw InputError(text.str());
@@ -213,8 +219,7 @@ namespace Supple
       return std::abs(a.position) < std::abs(b.position);
     });
     const double needle = under->depth;
-    if (!(needle > 0.))
-      throw_not_down(line);
+    check_needle(line, needle);
     for (auto &vertex : line)
       {
         vertex.slide /= needle;
@@ -253,6 +258,10 @@ namespace Supple
     for (const double direction : identification.comparison.directions())
       {
         const double reach = direction < 0. ? -line.front().position : line.back().position;
+        if (reach <= 1e-6 * (line.back().position - line.front().position))
+          throw InputError(
+            identification.place("Side") +
+            ": the body ends at the needle; set Side = " + (direction < 0. ? "right." : "left."));
         for (const MeasuredSet &set : sets)
           for (std::size_t i = 0; i < set.distances.size(); ++i)
             if (set.distances[i] > reach * (1. + 1e-9))

@@ -31,15 +31,36 @@ namespace Supple
     }
 
 
+    /** Without the empty ones at the end, which spreadsheets leave. */
+    std::vector<std::string>
+    fields_of(const std::string &line)
+    {
+      auto fields = dealii::Utilities::split_string_list(trim(line), ',');
+      while (!fields.empty() && fields.back().empty())
+        fields.pop_back();
+      return fields;
+    }
+
+
+    void
+    check_fields(const std::size_t n_fields, const std::size_t n_titles, const std::string &place)
+    {
+      if (n_fields < 3)
+        throw InputError(place + ": found " + std::to_string(n_fields) +
+                         " value(s); there must be three: set, distance, depth.");
+      if (n_fields > n_titles)
+        throw InputError(place + ": found " + std::to_string(n_fields) +
+                         " values, the first line has " + std::to_string(n_titles) +
+                         "; decimals need a point, not a comma.");
+    }
+
+
     void
     add_point(std::map<unsigned int, MeasuredSet> &sets,
               const std::vector<std::string> &fields,
               const double unit,
               const std::string &place)
     {
-      if (fields.size() < 3)
-        throw InputError(place + ": found " + std::to_string(fields.size()) +
-                         " value(s); there must be three: set, distance, depth.");
       const double set      = number(fields[0], place, "set");
       const double distance = unit * number(fields[1], place, "distance");
       const double depth    = unit * number(fields[2], place, "depth");
@@ -98,7 +119,10 @@ namespace Supple
     std::string line;
     if (!stream || !std::getline(stream, line))
       throw InputError(origin + ": there is no such file, or nothing in it: " + file + ".");
-    const auto titles = dealii::Utilities::split_string_list(trim(line), ',');
+    const std::string byte_order_mark = "\xEF\xBB\xBF"; // that spreadsheets begin with
+    if (line.rfind(byte_order_mark, 0) == 0)
+      line.erase(0, byte_order_mark.size());
+    const auto titles = fields_of(line);
     if (titles.size() < 3 || titles[0] != "set" || titles[1] != "distance" || titles[2] != "depth")
       throw InputError(file + ":1: found '" + trim(line) +
                        "'; the first line must be set,distance,depth.");
@@ -106,10 +130,12 @@ namespace Supple
     std::map<unsigned int, MeasuredSet> sets;
     for (unsigned int n = 2; std::getline(stream, line); ++n)
       if (!trim(line).empty())
-        add_point(sets,
-                  dealii::Utilities::split_string_list(trim(line), ','),
-                  unit,
-                  file + ":" + std::to_string(n));
+        {
+          const std::string place = file + ":" + std::to_string(n);
+          const auto fields       = fields_of(line);
+          check_fields(fields.size(), titles.size(), place);
+          add_point(sets, fields, unit, place);
+        }
     if (sets.empty())
       throw InputError(file + ":1: no measurement follows this line.");
     return chosen(sets, wanted, file, origin);

@@ -3,6 +3,7 @@
 import csv
 import math
 import pathlib
+import re
 import signal
 import subprocess
 import tempfile
@@ -116,6 +117,17 @@ for tolerance in 0.05, 0.1, 0.2:
     runner.check(float(pair.split(", ")[1].split()[0]) <= min(row["error_3"] for row in rows) * 1.0001, f"{line}: worse than the grid")
     extents.append((high - low, stiff - soft))
 
+    # An end that the search cut off says so.
+    with open(results.folder / "fits.csv") as file:
+        ends = [row for row in csv.DictReader(file) if row["pair"] != "best"]
+    at = lambda number, bounds: any(abs(float(number) / bound - 1) < 1e-3 for bound in bounds)
+    cut = [(at(row["thickness"], (0.6, 1.4)), at(row["ratio"], (5, 40))) for row in ends]
+    words_of = {(False, False): "", (True, False): " (at the bound of the thickness)", (False, True): " (at the bound of the ratio)",
+                (True, True): " (at the bounds of thickness and ratio)"}
+    thin, thick, soft, hard = (words_of[pair] for pair in cut)
+    pattern = rf"from [\d.]+{re.escape(thin)} to [\d.]+ mm{re.escape(thick)} and from [\d.]+{re.escape(soft)} to [\d.]+{re.escape(hard)}(;|$)"
+    runner.check(re.search(pattern, line), f"{line} does not fit to {pattern}")
+
     # The error at each end of the range, computed anew: the best one and the tolerance, or less at a bound. Beside the end,
     # along the other coordinate, it is not less, and farther out it is more.
     with open(results.folder / "fits.csv") as file:
@@ -161,6 +173,7 @@ _, error = process.communicate(timeout=100)
 runner.check(process.returncode == 2 and "Interrupted after" in error, f"{process.returncode} {error}")
 report = (stopped / "identification.md").read_text()
 runner.check("**Not complete. Interrupted after" in report and "| thickness | 1.5 |" in report, report)
+runner.check('"note":"Not complete. Interrupted after' in (stopped / "report.html").read_text(), "its page does not say so")
 n_pairs = len(runner.Results(stopped).table("identification.csv"))
 runner.check(f"after {n_pairs} pairs" in error, f"{n_pairs} {error}")
 if n_pairs > 0:
@@ -197,6 +210,8 @@ refused("wrong.csv:1", "no measurement", measurements=head)
 refused("wrong.csv:3", "'deep'", "must be a number", measurements=head + "1,0.25,1.8\n1,0.5,deep\n")
 refused("wrong.csv:3", "the depth is 30 mm", "4.5 mm high", measurements=head + "1,0.25,1.8\n1,0.5,30\n1,0.75,1\n")
 refused("wrong.csv:3", "1 value(s)", measurements=head + "1,0.25,1.8\n1\n")
+refused("wrong.csv:2", "found 5 values, the first line has 3", "decimals need a point", measurements=head + "1,0,25,1,8\n1,0,5,1,7\n")
+refused("wrong.prm", "Identification/Side", "set Side = right", arguments=["--set", "Probes/Profile center=-0.006, 0, 0"])
 refused("wrong.csv:3", "not nearer", "Sort", measurements=head + "1,0.5,1.8\n1,0.25,1.7\n1,0.75,1.6\n")
 refused("wrong.csv:3", "-0.1", "negative", measurements=head + "1,0.25,1.8\n1,0.5,-0.1\n1,0.75,0.1\n")
 refused("wrong.csv:2", "depth is 0 at the first point", measurements=head + "1,0.25,0\n1,0.5,0\n1,0.75,0\n")
@@ -232,3 +247,15 @@ runner.check(status == 1 and "does not go down" in error, f"{status} {error}")
 status, _, error = runner.run(SKIN / "tables-3.3.prm", "--output", folder / "beside", "--quiet", "--set", "Motion/Of=nearest to 0.003, 0, 0",
                               "--set", "Probes/Profile center=-0.006, 0, 0", "--set", "Identification/Side=right")
 runner.check(status == 1 and "Probes/Profile center" in error and "x = 0.003" in error and "Motion/Displacement" not in error, f"{status} {error}")
+status, _, error = runner.run(SKIN / "tables-3.3.prm", "--output", folder / "beside", "--quiet", "--set", "Motion/Of=nearest to 0.003, 0, 0",
+                              "--set", "Identification/Thicknesses=0.75")
+runner.check(status == 1 and "Probes/Profile center" in error and "more at x = 0.003" in error, f"{status} {error}")
+
+# What spreadsheets write: a byte order mark, further columns, empty fields at the end.
+lines = (SKIN / "fingertip.csv").read_text().splitlines()
+plain, other = (folder / name for name in ("plain.csv", "other.csv"))
+plain.write_text("\n".join(lines))
+other.write_text("\n".join(["\ufeff" + lines[0] + ",remark"] + [line + (",good" if i % 2 else ",,") for i, line in enumerate(lines[1:])]), encoding="utf-8")
+first, second = (identify(SKIN / "tables-3.3.prm", {"Identification/Measurements": path, "Identification/Thicknesses": "0.75"})[1]
+                 for path in (plain, other))
+runner.check(first == second, "the same measurements, as a spreadsheet writes them, give something else")

@@ -74,6 +74,14 @@ namespace Supple
     std::string
     edge_words(const LayerPair &pair) const;
 
+    /** Which bounds of the search cut a range off at this pair, its end; or nothing. */
+    std::string
+    bound_words(const LayerPair &pair) const;
+
+    /** How far the pairs reach whose error is within the tolerance of the best. */
+    std::string
+    range_words(const FitResult &found) const;
+
     /** The best pair of each set and of each total, a sentence each; and the fits. */
     std::vector<std::string>
     sentences() const;

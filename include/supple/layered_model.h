@@ -71,10 +71,10 @@ namespace Supple
     void
     check_center(const std::vector<SurfaceResponse::Vertex> &line) const;
 
-    /** Says which entry it is that the surface does not go down under the needle.
-     * @throws InputError always */
-    [[noreturn]] void
-    throw_not_down(const std::vector<SurfaceResponse::Vertex> &line) const;
+    /** @param needle how deep the surface is at the center [m]
+     * @throws InputError if that is not down, or if it is deeper somewhere else */
+    void
+    check_needle(const std::vector<SurfaceResponse::Vertex> &line, double needle) const;
 
     /** Vertices of the surface in line with the needle, from rows of the profile. */
     std::vector<SurfaceResponse::Vertex>

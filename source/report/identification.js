@@ -33,6 +33,12 @@ class HeatMap {
     this.show(maps[0][0]);
   }
 
+  /** Scrolls until the framed pair is in the middle, where the table is wider than its place. */
+  reveal() {
+    const best = this.holder.querySelector('.best');
+    if (best) this.holder.scrollLeft = best.offsetLeft - this.holder.offsetLeft - 0.5 * (this.holder.clientWidth - best.offsetWidth);
+  }
+
   show(name) {
     const column = this.names.indexOf(name), [unit, factor] = smaller[this.unit];
     const different = (c) => [...new Set(this.rows.map((row) => row[c]))].sort((a, b) => a - b);
@@ -51,6 +57,7 @@ class HeatMap {
     this.holder.replaceChildren(element('table', {class: 'heat'},
       element('thead', {}, element('tr', {}, element('th'), ratios.map((ratio) => element('th', {scope: 'col'}, digits(ratio))))),
       element('tbody', {}, different(0).map((thickness) => element('tr', {}, element('th', {scope: 'row'}, digits(thickness)), ratios.map((ratio) => cell(thickness, ratio)))))));
+    this.reveal();
   }
 }
 
@@ -59,6 +66,7 @@ export function showIdentification(data, page) {
   const map = new HeatMap(data), chart = new ProfileChart(data.profiles, data.unit);
   const cell = (_, text) => (text !== '' && Number.isFinite(Number(text)) ? digits(Number(text), 4) : text);
   page.replaceChildren(element('header', {}, element('h1', {}, data.name, element('span', {class: 'state'}, 'identification'))),
+    ...(data.note ? [element('div', {class: 'notice bad', role: 'alert'}, data.note)] : []),
     element('ul', {class: 'study-facts'}, data.facts.map((fact) => element('li', {}, fact.replaceAll('`', '')))),
     element('section', {}, element('h2', {}, 'Pairs that fit best: thickness of the upper layer, and its Young modulus over that of the lower one'),
       element('ul', {}, data.sentences.map((text) => element('li', {}, text)))),
@@ -66,4 +74,5 @@ export function showIdentification(data, page) {
     element('section', {}, element('h2', {}, `All pairs, lengths in ${data.unit}`), sortableTable(data.csv, cell)),
     element('section', {class: 'about'}, element('p', {}, `Written by Supple ${data.version}. It needs no network.`)));
   if (data.profiles.length > 0) chart.draw();
+  map.reveal();
 }
