@@ -33,7 +33,11 @@ def run(scene, settings, program, launcher=()):
         command = [*launcher, program, ROOT / "parameters" / f"{scene}.prm", "--quiet", "--output", folder]
         for entry, value in {**SILENT, **settings}.items():
             command += ["--set", f"{entry}={value}"]
-        process = subprocess.Popen(command, env={**os.environ, **ENVIRONMENT})
+        try:
+            process = subprocess.Popen(command, env={**os.environ, **ENVIRONMENT})
+        except OSError as error:
+            raise SystemExit(f"{command[0]} can't be run: {error.strerror}. Build it by scripts/run.sh --version, "
+                             "or name another by --program.") from None
         _, status, usage = os.wait4(process.pid, 0)
         if status != 0:
             raise SystemExit(f"failed: {' '.join(map(str, command))}")

@@ -86,6 +86,8 @@ namespace Supple
                      const unsigned int n_processes,
                      Triangulation<dim, 3> &serial)
     {
+      if (n_processes == 1)
+        return;
       using CellIterator = typename Triangulation<dim, 3>::active_cell_iterator;
       std::map<unsigned int, std::vector<CellIterator>> pieces; // cells, or the cells of a patch
       for (const auto &cell : serial.active_cell_iterators())

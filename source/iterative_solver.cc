@@ -1,5 +1,9 @@
 #include <supple/iterative_solver.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <sstream>
+
 namespace Supple
 {
   IterativeSolver::IterativeSolver(const ImplicitOperator &A,
@@ -18,6 +22,25 @@ namespace Supple
     preconditioning_matrix.update();
     if (patch_system)
       patch_system->update(preconditioning_matrix.get());
+  }
+
+
+  void
+  IterativeSolver::throw_not_converged(const unsigned int n_iterations,
+                                       const double relative_residual) const
+  {
+    std::ostringstream text;
+    text << "conjugate gradients (" << name() << ") did not reach the relative residual "
+         << parameters.tolerance << " in " << n_iterations
+         << " iterations (Solver/Iterations); they got to " << relative_residual;
+    if (parameters.method != SolverParameters::Method::automatic)
+      {
+        const bool alone = dealii::Utilities::MPI::n_mpi_processes(A.body.mesh.communicator) == 1;
+        text << ". Where Solver/Method is auto another solver takes over; by name there "
+             << (name() == "cg-ml" ? "is cg-amg" : "is cg-ml")
+             << (alone ? ", or cholmod and ldlt" : ", or cholmod and ldlt on one process");
+      }
+    throw ComputationError(text.str());
   }
 
 

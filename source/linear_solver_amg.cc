@@ -243,9 +243,12 @@ namespace Supple
         last_curvature            = 0.;
         while (norm > goal && reduction <= smallest_reduction)
           {
+            if (n_iterations >= parameters.iteration_limit)
+              throw_not_converged(n_iterations, norm / size);
             const double before = norm;
             const double aim    = std::max(reduction * norm, std::min(0.9 * goal, 0.5 * norm));
-            n_iterations += reduce(residual, size, aim / norm);
+            n_iterations +=
+              reduce(residual, size, aim / norm, parameters.iteration_limit - n_iterations);
             add_correction(x, size);
             norm = set_residual(residual, x, b);
             if (norm > std::max(goal, 2. * aim))
@@ -257,7 +260,7 @@ namespace Supple
               }
           }
         if (norm > goal)
-          n_iterations += iterate(x, b, residual, DoublePrecision(multigrid, r, z));
+          n_iterations += iterate(x, b, residual, DoublePrecision(multigrid, r, z), n_iterations);
         return n_iterations;
       }
 
@@ -273,11 +276,15 @@ namespace Supple
       /**
        * Finds a correction in single precision that makes the residual smaller by a factor, if it
        * can.
-       * @param size unit of the residual
+       * @param size  unit of the residual
+       * @param limit of the number of iterations
        * @return the number of iterations
        */
       unsigned int
-      reduce(const Vector &residual, const double size, const double factor)
+      reduce(const Vector &residual,
+             const double size,
+             const double factor,
+             const unsigned int limit)
       {
         for (std::size_t node = 0; node < n_owned; ++node)
           {
@@ -310,7 +317,7 @@ namespace Supple
                 r[node].lanes -= alpha * q[node].lanes;
               }
             const double square = sum(product(r, r, n_owned));
-            if (!(square > goal_square) || n == single_precision_iterations)
+            if (!(square > goal_square) || n >= std::min(limit, single_precision_iterations))
               return n;
           }
       }

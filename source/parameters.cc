@@ -253,7 +253,8 @@ namespace Supple
         iteration_limit,
         "none",
         Range::whole_number(1),
-        "Conjugate gradients that need more have failed.");
+        "Conjugate gradients that need more for one solution have failed: then auto takes another "
+        "solver, and one that was asked for by name ends the run.");
     prm.leave_subsection();
   }
 

@@ -130,9 +130,10 @@ namespace Supple
         residual.sadd(-1., 1., b);
         if (!all_finite(residual))
           throw ComputationError("the linear solver " + name + " gave no finite numbers");
-        progress = residual.l2_norm() < 0.5 * norm; // or it is round-off
-        norm     = residual.l2_norm();
-        unit     = control.last_value() / norm;
+        progress = residual.l2_norm() < 0.5 * norm ||
+                   n_iterations >= parameters.iteration_limit; // or it is round-off
+        norm = residual.l2_norm();
+        unit = control.last_value() / norm;
       }
     return n_iterations;
   }

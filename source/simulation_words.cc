@@ -175,6 +175,12 @@ namespace Supple
       list.push_back(solver->name() + " failed in " + std::to_string(effort.stand_in_solves) +
                      " of " + std::to_string(effort.solves) + " systems, which " +
                      solver->stand_in_name() + " solved in its stead.");
+    // Each solver has met its own criterion, and what was left over was solved for three times.
+    const double tolerance = parameters.solver.tolerance;
+    if (effort.max_relative_residual > 2. * tolerance)
+      list.push_back("The worst linear solve left a relative residual of " +
+                     digits(effort.max_relative_residual, 2) + " where " + digits(tolerance, 2) +
+                     " was asked for (Solver/Tolerance): round-off of a badly conditioned matrix.");
     return list;
   }
 

@@ -63,6 +63,9 @@ def main():
     parser.add_argument("--methods", nargs="+", default=["auto"])
     parser.add_argument("--plot", type=pathlib.Path, help="an .svg file to draw, by gnuplot")
     arguments = parser.parse_args()
+    unknown = [str(size) for size in arguments.sizes if size not in STEPS]
+    if unknown:
+        parser.error(f"--sizes {' '.join(unknown)}: the sizes are {', '.join(map(str, STEPS))}")
 
     print("| tetrahedra | solver | steps/s | ms a step | " + " | ".join(PHASES) +
           " | rest | iterations | residual | MB |")

@@ -7,7 +7,6 @@
 #include <deal.II/lac/solver_cg.h>
 
 #include <array>
-#include <sstream>
 
 namespace Supple
 {
@@ -39,29 +38,36 @@ namespace Supple
       return iterate(x, b, residual, preconditioner);
     }
 
-    /** The same without patches, on from the x given. */
+    /** The same without patches, on from the x given.
+     * @param n_before iterations done for that x; they count
+     * @return the number of further iterations */
     template <class Preconditioner>
     unsigned int
-    iterate(Vector &x, const Vector &b, Vector &residual, const Preconditioner &preconditioner)
+    iterate(Vector &x,
+            const Vector &b,
+            Vector &residual,
+            const Preconditioner &preconditioner,
+            const unsigned int n_before = 0)
     {
       using namespace dealii;
       const double size = b.l2_norm();
-      SolverControl control(parameters.iteration_limit, parameters.tolerance * size);
+      SolverControl control(parameters.iteration_limit - n_before, parameters.tolerance * size);
       try
         {
           SolverCG<Vector>(control, memory).solve(A, x, b, preconditioner);
         }
       catch (const SolverControl::NoConvergence &)
         {
-          std::ostringstream text;
-          text << "conjugate gradients (" << name() << ") did not reach the relative residual "
-               << parameters.tolerance << " in " << control.last_step()
-               << " iterations; they got to " << control.last_value() / size;
-          throw ComputationError(text.str());
+          throw_not_converged(n_before + control.last_step(), control.last_value() / size);
         }
       set_residual(residual, x, b);
       return control.last_step();
     }
+
+    /** @throws ComputationError: conjugate gradients have not converged, and what may help
+     * @param relative_residual that they got to */
+    [[noreturn]] void
+    throw_not_converged(unsigned int n_iterations, double relative_residual) const;
 
     /** What three translations and three rotations of the deformed body, in diameters about its
      * centre, move at a degree of freedom. */
