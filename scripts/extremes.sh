@@ -3,6 +3,12 @@
 # SUPPLE=path takes another executable instead of building one. doc/extremes.md sums the tables up by hand.
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
+if [ $# -gt 0 ]; then
+  sed -n '2,3s/^# //p' "$0"
+  [ "$1" = --help ] && exit 0
+  echo "extremes.sh takes no arguments; found: $*" >&2
+  exit 1
+fi
 find_supple
 cd "$root"
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1

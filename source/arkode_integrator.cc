@@ -15,6 +15,10 @@ namespace Supple
 
   namespace
   {
+    /** Within this part of the step a time is the end of the step: it differs by round-off. */
+    constexpr double grid_accuracy = 1e-9;
+
+
     /** A method of one stage at c, without an error estimate. */
     ARKodeButcherTable
     one_stage_table(const int order, double c)
@@ -138,8 +142,9 @@ namespace Supple
   {
     const ARKRhsFn rate = [](sunrealtype time, N_Vector y, N_Vector f, void *self) {
       auto &integrator = *static_cast<ArkodeIntegrator *>(self);
-      return integrator.failure.guard(
-        [&] { integrator.evaluate(time, Sundials::data(y), Sundials::data(f)); });
+      return integrator.failure.guard([&] {
+        integrator.evaluate(integrator.time_of(time), Sundials::data(y), Sundials::data(f));
+      });
     };
     memory = settings.is_explicit() ? ARKStepCreate(rate, nullptr, 0., unknowns, context)
                                     : ARKStepCreate(nullptr, rate, 0., unknowns, context);
@@ -232,8 +237,11 @@ namespace Supple
                           N_Vector) {
                          auto &integrator = *static_cast<ArkodeIntegrator *>(self);
                          *current         = 1;
-                         return integrator.failure.guard(
-                           [&] { integrator.equation.linearize(time, Sundials::data(y), gamma); });
+                         return integrator.failure.guard([&] {
+                           integrator.equation.linearize(integrator.time_of(time),
+                                                         Sundials::data(y),
+                                                         gamma);
+                         });
                        });
     ARKStepSetLinearSolutionScaling(memory, 0);
 
@@ -282,6 +290,7 @@ namespace Supple
   {
     equation.get_unknowns(unknowns.data(), state);
     ARKStepReset(memory, time, unknowns);
+    ode_time = time;
     if (adaptive)
       {
         ARKStepSetStopTime(memory, end); // which the line above has made it forget
@@ -291,10 +300,23 @@ namespace Supple
   }
 
 
+  /** ARKode adds step to step. A load that ends with a step must have ended in the solution as it
+   * has in the work, and in whatever else is told of this step. */
+  double
+  ArkodeIntegrator::time_of(const double at) const
+  {
+    if (adaptive)
+      return at;
+    const double from_start = time + (at - ode_start);
+    return std::abs(from_start - step_end) < grid_accuracy * settings.step ? step_end : from_start;
+  }
+
+
   bool
   ArkodeIntegrator::evolve()
   {
     context.message.clear();
+    ode_start = ode_time;
     // a time that one step does not reach: ARKode would interpolate
     const int status = ARKStepEvolve(memory, 2. * end, unknowns, &ode_time, ARK_ONE_STEP);
     if (status >= 0)
@@ -332,7 +354,7 @@ namespace Supple
       }
     else
       report = take_fixed_step(state);
-    equation.set_state(state, ode_time, unknowns.data());
+    equation.set_state(state, report.time, unknowns.data());
 
     long count = 0;
     if (!settings.is_explicit())
@@ -355,6 +377,14 @@ namespace Supple
   }
 
 
+  double
+  ArkodeIntegrator::end_of_step(const double size) const
+  {
+    const double next = (grid + 1) * settings.step;
+    return time + size > next - grid_accuracy * settings.step ? next : time + size;
+  }
+
+
   void
   ArkodeIntegrator::set_rotations(const EquationOfMotion::Rotations rotations)
   {
@@ -363,16 +393,30 @@ namespace Supple
   }
 
 
-  /** First the same step with rotations that follow, then half of it. */
+  /** First the same step with rotations that follow, then half of it. What rises in the smallest
+   * step too is taken as if there were no guard: many small steps would raise it further. */
   bool
   ArkodeIntegrator::make_safer()
   {
-    const bool smaller = !equation.rotations_are_frozen() || newton_fails;
-    if (smaller && last_size < settings.step * std::pow(0.5, settings.n_retries - 0.5))
+    if (given_up)
       return false;
-    if (!smaller)
-      set_rotations(EquationOfMotion::Rotations::following);
-    size_limit = smaller ? 0.5 * last_size : last_size;
+    const bool smaller = !equation.rotations_are_frozen() || newton_fails;
+    given_up = smaller && last_size < settings.step * std::pow(0.5, settings.n_retries - 0.5);
+    if (given_up)
+      {
+        if (settings.method != Method::backward_euler)
+          return false;
+        set_rotations(EquationOfMotion::Rotations::frozen);
+        last_size  = settings.step;
+        size_limit = settings.step;
+      }
+    else if (smaller)
+      size_limit = 0.5 * last_size;
+    else
+      {
+        set_rotations(EquationOfMotion::Rotations::following);
+        size_limit = last_size;
+      }
     if (time == grid * settings.step) // it is where the step to be done again has landed
       --grid;
     started = false;
@@ -402,7 +446,7 @@ namespace Supple
     if (settings.method == Method::backward_euler && !equation.rotations_are_frozen())
       set_rotations(EquationOfMotion::Rotations::frozen);
     if (time == grid * settings.step)
-      newton_fails = false;
+      newton_fails = given_up = false;
   }
 
 
@@ -438,6 +482,7 @@ namespace Supple
   {
     double size = next_step_size();
     set_step_size(size);
+    step_end              = end_of_step(size);
     const double smallest = settings.step * std::pow(0.5, settings.n_retries + 0.5);
     while (!evolve())
       {
@@ -449,18 +494,15 @@ namespace Supple
         model.body.update_rotations(state.block(0), model.effort);
         restart(state);
         set_step_size(size *= 0.5);
+        step_end = end_of_step(size);
       }
     last_size = size;
 
     StepReport report;
     report.local_error = std::numeric_limits<double>::quiet_NaN();
-    report.time        = time + size;
-    const double next  = (grid + 1) * settings.step;
-    if (report.time > next - 1e-9 * settings.step)
-      {
-        report.time = next;
-        ++grid;
-      }
+    report.time        = step_end;
+    if (report.time == (grid + 1) * settings.step)
+      ++grid;
     return report;
   }
 } // namespace Supple

@@ -141,8 +141,11 @@ namespace Supple
         "'dissipated' need not grow. They depend on the axes.");
     if (diagnostics.extremes().energy_rises > 0 &&
         parameters.time.energy_guard != TimeParameters::EnergyGuard::off)
-      list.push_back("In " + std::to_string(diagnostics.extremes().energy_rises) +
-                     " steps the total energy rose by more than the work that was done.");
+      {
+        const unsigned int n = diagnostics.extremes().energy_rises;
+        list.push_back("In " + std::to_string(n) + (n == 1 ? " step" : " steps") +
+                       " the total energy rose by more than the work that was done.");
+      }
     double poisson = 0.;
     for (const auto &[id, n_cells] : mesh.materials)
       poisson = std::max(poisson, body.material(id).poisson());

@@ -75,7 +75,7 @@ namespace Supple
     for (const auto &list : {plan.references, plan.runs})
       for (const PlannedRun &run : list)
         {
-          std::string result = "right";
+          std::string result = "can be run";
           try
             {
               Simulation(plan.parameters(run), "", true, communicator);

@@ -34,6 +34,12 @@ runner.check(guarded.summary()["rejected_steps"] == 0, "steps were rejected")
 difference = runner.largest_difference(plain.history(), guarded.history(), ["total", "work", "dissipated"])
 runner.check(difference < 1e-9, f"the guard changes the motion by {difference}")
 
+# A load that ends with a step: it has ended in the solution where it has in the work.
+ending = {"Start/Velocity": "0; 0; 0", "Corotation/Rotation": "none", "Loads/Gravity": "0, 0, 0",
+          "Loads/Body force": "0; 0; if(t < 3.5, -9810, 0)", "Output/Frames": "none", "Time/Energy guard": "reject"}
+summary = runner.simulate(runner.BAR, ending).summary()
+runner.check(summary["extremes"]["energy_rises"] == 0 and summary["rejected_steps"] == 0, f"a load that ends: {summary}")
+
 status, _, error = runner.run("--check", runner.BAR, *runner.overrides(
     {"Time/Energy guard": "reject", "Time/Method": "ida"}))
 runner.check(status == 1 and "only fixed steps can be done again" in error, error)

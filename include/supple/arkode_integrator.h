@@ -106,6 +106,16 @@ namespace Supple
     [[noreturn]] void
     throw_at(double size);
 
+    /** The time [s] after a fixed step of this size: the next multiple of the step if that is
+     * reached. */
+    double
+    end_of_step(double size) const;
+
+    /** What ARKode's time is to us: without the round-off of its sum of steps, so that loads and
+     * motions at the end of a step are those of the time that is reported. */
+    double
+    time_of(double at) const;
+
     StepReport
     take_fixed_step(State &state);
 
@@ -115,11 +125,14 @@ namespace Supple
     void *memory           = nullptr;
     bool started           = false;
     double ode_time        = 0.; ///< ARKode's time [s]
+    double ode_start       = 0.; ///< the same at the start of the step [s]
+    double step_end        = 0.; ///< the end of the fixed step, as reported [s]
     double set_size        = 0.; ///< the fixed step ARKode knows of [s]
     double last_size       = 0.; ///< of the last fixed step that succeeded [s]
     double size_limit      = std::numeric_limits<double>::max(); ///< of the next step [s]
     unsigned int grid      = 0;     ///< multiples of the step that are reached
     bool newton_fails      = false; ///< up to the next of them
+    bool given_up          = false; ///< up to the next of them: the energy rises
     long newton_iterations = 0;
     std::optional<StableStep> stable; ///< of an explicit method
   };

@@ -28,7 +28,7 @@ namespace Supple
     take_step(State &state) = 0;
 
     /** Prepares to do the last step again in a way that is less likely to raise the energy.
-     * @return false if there is none */
+     * @return false if it stands as it is */
     virtual bool
     make_safer() = 0;
 
