@@ -153,8 +153,9 @@ namespace Supple
       {
         std::string content;
         Json::to_cbor(all, content);
-        std::error_code nothing_to_keep; // write_whole_file() speaks of a folder that is gone
-        std::filesystem::rename(file, previous_file, nothing_to_keep);
+        std::error_code problem; // write_whole_file() speaks of a folder that is gone
+        if (whole_content(file)) // a damaged one must not take the place of a whole one
+          std::filesystem::rename(file, previous_file, problem);
         write_whole_file(file, head + checksum(content) + content);
       }
     last_step = step;
@@ -163,15 +164,18 @@ namespace Supple
 
 
   std::string
-  Checkpoint::read_content() const
+  Checkpoint::read_content()
   {
     bool any = false;
     for (const std::string &name : {file, previous_file})
       if (std::filesystem::exists(name))
         {
-          any = true;
           if (const auto content = whole_content(name))
-            return *content;
+            {
+              damaged = any;
+              return *content;
+            }
+          any = true;
         }
     if (any)
       throw InputError(file +
@@ -181,8 +185,18 @@ namespace Supple
   }
 
 
+  void
+  Checkpoint::refuse_content() const
+  {
+    throw InputError((damaged ? previous_file : file) +
+                     " is foreign: it is whole, but has not what this program keeps in a "
+                     "checkpoint. Name another folder with --output, or set Checkpoint/Resume = "
+                     "never, to begin anew.");
+  }
+
+
   std::optional<Json>
-  Checkpoint::read(const std::vector<Vector *> &vectors)
+  Checkpoint::read(const std::vector<Vector *> &vectors, const unsigned int n_needed)
   {
     // The first process reads; all say the same if it is wrong.
     const MPI_Comm communicator = body.mesh.communicator;
@@ -200,18 +214,43 @@ namespace Supple
     if (!problem.empty())
       throw InputError(problem);
     content = Utilities::MPI::broadcast(communicator, content);
+    damaged = Utilities::MPI::broadcast(communicator, damaged ? 1 : 0) == 1;
     if (content.empty())
       return {};
+    try
+      {
+        return unpack(Json::from_cbor(content), vectors, n_needed);
+      }
+    catch (const Json::exception &)
+      {
+        refuse_content();
+      }
+  }
 
-    const Json all          = Json::from_cbor(content);
+
+  Json
+  Checkpoint::unpack(const Json &all,
+                     const std::vector<Vector *> &vectors,
+                     const unsigned int n_needed)
+  {
+    const std::string &name = damaged ? previous_file : file;
     const std::string found = all.at("identity"), mine = identity();
     if (found != mine)
-      throw InputError(file + " is of another scene: there '" + first_difference(found, mine) +
+      throw InputError(name + " is of another scene: there '" + first_difference(found, mine) +
                        "', here '" + first_difference(mine, found) +
                        "'. Name another folder with --output, or set Checkpoint/Resume = never.");
-    for (unsigned int k = 0; k < vectors.size(); ++k)
-      scatter(*vectors[k], all.at("vectors").at(k).get<std::vector<double>>());
-    last_step = all.at("step");
+    const auto saved = all.at("vectors").get<std::vector<std::vector<double>>>();
+    if (saved.size() < n_needed)
+      refuse_content();
+    for (unsigned int k = 0; k < std::min(saved.size(), vectors.size()); ++k)
+      {
+        if (saved[k].size() != 3 * body.mesh.n_vertices)
+          refuse_content();
+        scatter(*vectors[k], saved[k]);
+      }
+    last_step     = all.at("step");
+    read_in_words = "step " + std::to_string(last_step) + " of " +
+                    std::filesystem::path(name).filename().string();
     return all.at("rest");
   }
 } // namespace Supple

@@ -69,6 +69,19 @@ namespace Supple
   }
 
 
+  std::string
+  Measurement::not_finite() const
+  {
+    const std::vector<double> values     = row();
+    const std::vector<std::string> names = column_names();
+    std::string list;
+    for (unsigned int i = 0; i < values.size(); ++i)
+      if (!std::isfinite(values[i]))
+        list += (list.empty() ? "" : ", ") + names[i];
+    return list;
+  }
+
+
   double
   distance_from_shape(const Body &body, const Vector &displacement)
   {
@@ -138,11 +151,6 @@ namespace Supple
         ++worst.energy_rises;
         worst.energy_risen += rise;
       }
-    const std::vector<double> row = measurement.row();
-    if (!std::all_of(row.begin(), row.end(), [](const double value) {
-          return std::isfinite(value);
-        }))
-      ++worst.not_finite;
   }
 
 
@@ -182,11 +190,7 @@ namespace Supple
 
 
   Measurement
-  Diagnostics::measure(const unsigned int step,
-                       const double time,
-                       const double seconds,
-                       const State &state,
-                       const StepReport &report)
+  Diagnostics::measure_body(const State &state, const double load_factor) const
   {
     const bool moving = state.n_blocks() > 1;
     const GhostValues displacement(state.block(0));
@@ -201,9 +205,6 @@ namespace Supple
     Utilities::MPI::sum(sums, communicator, global);
 
     Measurement result;
-    result.step             = step;
-    result.time             = time;
-    result.dt               = report.dt;
     result.kinetic          = global[0];
     result.elastic          = global[1];
     result.inverted         = static_cast<unsigned int>(global[2]);
@@ -211,26 +212,45 @@ namespace Supple
     result.angular_momentum = {{global[6], global[7], global[8]}};
     result.min_volume_ratio = Utilities::MPI::min(local.min_volume_ratio, communicator);
     result.max_volume_ratio = Utilities::MPI::max(local.max_volume_ratio, communicator);
+    result.potential        = load_factor * loads.potential(state.block(0));
+    result.total            = result.kinetic + result.elastic + result.potential;
+    return result;
+  }
 
-    const double load_factor = stationary ? time : 1.;
-    result.potential         = load_factor * loads.potential(state.block(0));
-    result.total             = result.kinetic + result.elastic + result.potential;
 
-    if (!first && report.expended)
-      dissipated += *report.expended - (result.elastic - elastic);
-    else if (!first && !stationary)
-      dissipated += report.load_work - (result.total - total);
-    note_extremes(result, first || stationary ? 0. : result.total - total - report.load_work);
-    work += report.load_work;
-    elastic           = result.elastic;
-    total             = result.total;
-    first             = false;
-    result.dissipated = dissipated;
-    result.work       = work;
-
+  Measurement
+  Diagnostics::measure(const unsigned int step,
+                       const double time,
+                       const double seconds,
+                       const State &state,
+                       const StepReport &report)
+  {
+    Measurement result       = measure_body(state, stationary ? time : 1.);
+    result.step              = step;
+    result.time              = time;
+    result.dt                = report.dt;
     result.newton_iterations = report.newton_iterations;
     result.linear_iterations = report.linear_iterations;
     result.seconds           = seconds;
+
+    result.dissipated = dissipated;
+    if (!first && report.expended)
+      result.dissipated += *report.expended - (result.elastic - elastic);
+    else if (!first && !stationary)
+      result.dissipated += report.load_work - (result.total - total);
+    result.work = work + report.load_work;
+    if (!result.not_finite().empty())
+      {
+        ++worst.not_finite;
+        return result;
+      }
+
+    note_extremes(result, first || stationary ? 0. : result.total - total - report.load_work);
+    dissipated = result.dissipated;
+    work       = result.work;
+    elastic    = result.elastic;
+    total      = result.total;
+    first      = false;
     return result;
   }
 } // namespace Supple

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -94,6 +95,23 @@ namespace Supple
         default:
           return false;
       }
+  }
+
+
+  bool
+  Frames::can_hold(const State &state) const
+  {
+    const auto finite = [](const float value) { return std::isfinite(value); };
+    for (unsigned int b = 0; b < state.n_blocks(); ++b)
+      state.block(b).update_ghost_values(); // the cells ask for them
+    bool here = true;
+    for (unsigned int b = 0; b < state.n_blocks(); ++b)
+      here = here && std::all_of(state.block(b).begin(), state.block(b).end(), finite);
+    for (const auto &[name, values] : cell_fields(state))
+      here = here && std::all_of(values.begin(), values.end(), finite);
+    for (unsigned int b = 0; b < state.n_blocks(); ++b)
+      state.block(b).zero_out_ghost_values();
+    return Utilities::MPI::min(here ? 1 : 0, body.mesh.communicator) == 1;
   }
 
 

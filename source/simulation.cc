@@ -144,13 +144,12 @@ namespace Supple
   {
     if (folder.empty())
       return;
-    if (writes_frames)
-      frames = std::make_unique<Frames>(body, parameters.output, folder);
-    resume();
-
     prepare_output_folder(folder, communicator, [&] {
+      std::filesystem::create_directories(folder + (writes_frames ? "/solution" : ""));
       if (!resumed)
-        clear_folder();
+        clear_results();
+      if (!resumed || (frames && frames->n_written() == 0))
+        clear_frames();
       std::ostringstream used;
       parameters.print(used);
       write_whole_file(folder + "/parameters.prm", used.str());
@@ -161,17 +160,14 @@ namespace Supple
 
 
   void
-  Simulation::clear_folder() const
+  Simulation::clear_results() const
   {
     namespace fs = std::filesystem;
-    fs::create_directories(writes_frames ? fs::path(folder) / "solution" : fs::path(folder));
-    for (const char *name : {"solution.pvd",
-                             "history.csv",
+    for (const char *name : {"history.csv",
                              "probes.csv",
                              "error.csv",
                              "summary.json",
                              "report.html",
-                             "report.frames",
                              "checkpoint.cbor",
                              "checkpoint.previous.cbor"})
       fs::remove(fs::path(folder) / name);
@@ -179,6 +175,15 @@ namespace Supple
       if (entry.path().filename().string().rfind("profile_", 0) == 0 &&
           entry.path().extension() == ".csv")
         fs::remove(entry.path());
+  }
+
+
+  void
+  Simulation::clear_frames() const
+  {
+    namespace fs = std::filesystem;
+    for (const char *name : {"solution.pvd", "report.frames"})
+      fs::remove(fs::path(folder) / name);
     if (fs::is_directory(fs::path(folder) / "solution"))
       for (const auto &entry : fs::directory_iterator(fs::path(folder) / "solution"))
         if (entry.path().filename().string().rfind("frame_", 0) == 0)
@@ -219,25 +224,47 @@ namespace Supple
   void
   Simulation::resume()
   {
-    if (!parameters.checkpoint.resume)
+    if (!parameters.checkpoint.resume || folder.empty())
       return;
-    const auto saved = checkpoint.read(kept_vectors());
+    const auto saved = checkpoint.read(kept_vectors(), state.n_blocks());
     if (!saved)
       return;
-    resumed        = true;
-    step           = saved->at("step");
-    now.step       = step;
-    now.time       = saved->at("time");
-    error_estimate = saved->at("error_estimate");
-    largest_motion = saved->at("largest_motion");
-    seconds_before = saved->at("seconds");
-    integrator->load(saved->at("integrator"));
+    try
+      {
+        load(*saved);
+      }
+    catch (const nlohmann::json::exception &)
+      {
+        checkpoint.refuse_content();
+      }
+    resumed      = true;
+    steps_before = step;
     body.update_rotations(state.block(0), effort);
+  }
+
+
+  void
+  Simulation::load(const nlohmann::json &saved)
+  {
+    step     = saved.at("step");
+    now.step = step;
+    now.time = saved.at("time");
+    // What is no number is written as null.
+    const auto &local_errors = saved.at("error_estimate");
+    error_estimate           = local_errors.is_null() ? NAN : local_errors.get<double>();
+    largest_motion           = saved.at("largest_motion");
+    seconds_before           = saved.at("seconds");
+    integrator->load(saved.at("integrator"));
+    if (observed && !saved.contains("diagnostics"))
+      throw InputError(parameters.origin("Output/History") +
+                       ": the run to go on from measured no energies, for it wrote neither a "
+                       "history nor frames. Set Output/History = false and Output/Frames = none "
+                       "as there, or Checkpoint/Resume = never to begin anew.");
     if (observed)
-      diagnostics.load(saved->at("diagnostics"));
-    if (frames)
-      frames->load(saved->at("frames"));
-    profiles.load(saved->at("profiles"));
+      diagnostics.load(saved.at("diagnostics"));
+    if (frames && saved.contains("frames"))
+      frames->load(saved.at("frames"));
+    profiles.load(saved.at("profiles"));
   }
 
 
@@ -267,13 +294,20 @@ namespace Supple
   {
     observer = watching;
     observed = writes_history || writes_frames || observer;
+    if (!folder.empty() && writes_frames)
+      frames = std::make_unique<Frames>(body, parameters.output, folder);
+    resume();
+    if (!resumed)
+      measure(0, StepReport());
     open_output();
     warnings_told = warnings();
     print_description(false);
     try
       {
         if (!resumed)
-          record(StepReport());
+          record();
+        else if (frames && frames->n_written() == 0 && frames->can_hold(state))
+          frames->write(state, now);
         time_loop();
       }
     catch (const InterruptedError &)
@@ -333,50 +367,109 @@ namespace Supple
   void
   Simulation::advance()
   {
+    if (observed)
+      before = state;
     const StepReport report = integrator->advance(state, observed);
-    ++step;
-    now.step = step;
-    now.time = report.time;
+    measure(step + 1, report);
     error_estimate += report.local_error;
     largest_motion =
       std::max(largest_motion, largest_vertex_distance(state.block(0), start_displacement));
-    record(report);
+    record();
     if (step_doubling)
       estimate_error();
   }
 
 
-  void
-  Simulation::record(const StepReport &report)
+  std::vector<double>
+  Simulation::probe_values(const Measurement &measurement) const
   {
-    if (!observed)
-      return;
-    {
-      const PhaseTimer timer(effort, Phase::diagnostics);
-      const double seconds = seconds_of_run();
-      now                  = diagnostics.measure(
-        step, now.time, step_doubling ? seconds - step_doubling->seconds : seconds, state, report);
-      largest_energy = std::max(largest_energy, now.kinetic + now.elastic);
-    }
-    std::vector<double> row = {double(step), now.time};
+    std::vector<double> row = {double(measurement.step), measurement.time};
     if (!probes.empty() && (writes_history || observer))
       {
         const auto values = probes.values(state, integrator->reactions());
         row.insert(row.end(), values.begin(), values.end());
       }
+    return row;
+  }
+
+
+  void
+  Simulation::measure(const unsigned int after_step, const StepReport &report)
+  {
+    const double time = after_step == 0 ? 0. : report.time;
+    if (observed)
+      {
+        const PhaseTimer timer(effort, Phase::diagnostics);
+        const double seconds    = seconds_of_run() - (step_doubling ? step_doubling->seconds : 0.);
+        const Measurement next  = diagnostics.measure(after_step, time, seconds, state, report);
+        probes_now              = probe_values(next);
+        const std::string wrong = what_is_not_finite(next);
+        if (!wrong.empty())
+          refuse(wrong, next);
+        now            = next;
+        largest_energy = std::max(largest_energy, now.kinetic + now.elastic);
+      }
+    now.step = step = after_step;
+    now.time        = time;
+  }
+
+
+  std::string
+  Simulation::what_is_not_finite(const Measurement &next) const
+  {
+    const std::string columns = next.not_finite();
+    if (!columns.empty())
+      return "energies are no finite numbers any more (in history.csv: " + columns + ")";
+    const bool here = std::all_of(probes_now.begin(), probes_now.end(), [](const double value) {
+      return std::isfinite(value);
+    });
+    if (Utilities::MPI::min(here ? 1 : 0, communicator) == 0)
+      return "the values of the probes are no finite numbers any more";
+    if (frames && (frames->due(state, next) || finished()) && !frames->can_hold(state))
+      return "the motion or its stress is larger than a frame can hold (3.4e38)";
+    return "";
+  }
+
+
+  void
+  Simulation::refuse(const std::string &what, const Measurement &next)
+  {
+    if (next.step > 0)
+      {
+        state = before;
+        body.update_rotations(state.block(0), effort);
+        throw ComputationError(what);
+      }
+    const bool by_velocity  = std::isfinite(next.elastic) && !(next.kinetic <= next.elastic);
+    const std::string entry = by_velocity ? "Start/Velocity" : "Start/Displacement";
+    const std::string value =
+      by_velocity ? parameters.start.velocity : parameters.start.displacement;
+    const bool moved =
+      constraints.move() && Expression(value, 3, parameters.origin(entry)).is_zero();
+    throw InputError(
+      (moved ? "A displacement of subsection Motion at time 0" : parameters.origin(entry)) +
+      ": it is too large: at the start " + what + ". The body is of " + mesh.extent() + " m.");
+  }
+
+
+  void
+  Simulation::record()
+  {
+    if (!observed)
+      return;
     {
       const PhaseTimer timer(effort, Phase::output);
       if (history)
         history->write_row(now.row());
       if (probe_history)
-        probe_history->write_row(row);
+        probe_history->write_row(probes_now);
       if (writes_history)
         profiles.write(step, now.time, state.block(0), false);
       if (frames && frames->due(state, now))
         frames->write(state, now);
     }
     if (observer)
-      observer({now, row, state});
+      observer({now, probes_now, state});
   }
 
 
@@ -394,7 +487,7 @@ namespace Supple
   {
     if (writes_history)
       profiles.write(step, now.time, state.block(0), true);
-    if (frames)
+    if (frames && frames->can_hold(state))
       {
         const PhaseTimer timer(effort, Phase::output);
         frames->write(state, now);

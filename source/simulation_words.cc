@@ -121,6 +121,8 @@ namespace Supple
       line("solver", solver->name() + " (" + solver->reason + ")");
     for (const std::string &text : probes.descriptions())
       line("probe", text);
+    if (resumed)
+      line("resumed", "goes on from " + checkpoint.origin());
     for (const std::string &text : warnings())
       line("warning", text);
     std::cout << std::flush;
@@ -131,6 +133,12 @@ namespace Supple
   Simulation::warnings() const
   {
     std::vector<std::string> list = mesh.report.warnings;
+    if (checkpoint.was_damaged())
+      list.push_back("Goes on from " + checkpoint.origin() + "; checkpoint.cbor is damaged.");
+    if (resumed && step == steps_before && finished())
+      list.push_back("Nothing was left to do: step " + std::to_string(step) +
+                     " of the run to go on from is at or beyond the end that is asked for "
+                     "(subsection Time).");
     if (!constraints.free_pieces_in_words().empty())
       list.push_back(constraints.free_pieces_in_words());
     list.insert(list.end(), probes.warnings().begin(), probes.warnings().end());

@@ -73,7 +73,12 @@ namespace Supple
     if (!failure.empty() || std::abs(second->time() - time) > 1e-9 * time)
       return {};
 
-    last    = factor * largest_vertex_distance(state.block(0), second->current_state().block(0));
+    last = factor * largest_vertex_distance(state.block(0), second->current_state().block(0));
+    if (!std::isfinite(last))
+      {
+        failure = "its motion is too large to be compared";
+        return {};
+      }
     largest = std::max(largest, last);
     return last;
   }

@@ -33,20 +33,45 @@ namespace Supple
           const nlohmann::json &rest);
 
     /**
-     * The rest, and the vectors set, if there is a file.
-     * @throws InputError if it is damaged (and so is the one before it) or of another scene
+     * The rest, and the vectors set, if there is a file. Of the vectors those at the end that it
+     * has not are left as they are.
+     * @param n_needed of the vectors, which must be there
+     * @throws InputError if it is damaged (and so is the one before it), of another scene or of
+     * other content
      */
     std::optional<nlohmann::json>
-    read(const std::vector<Vector *> &vectors);
+    read(const std::vector<Vector *> &vectors, unsigned int n_needed);
+
+    /** @throws InputError that the file which was read has other content than a checkpoint */
+    [[noreturn]] void
+    refuse_content() const;
+
+    /** "step 20 of checkpoint.cbor", and of a damaged file before it; empty if none was read. */
+    const std::string &
+    origin() const
+    {
+      return read_in_words;
+    }
+
+    /** Whether checkpoint.cbor was damaged, so that the one before it was read. */
+    bool
+    was_damaged() const
+    {
+      return damaged;
+    }
 
   private:
     /** What must be the same for a run to go on: parameters but for output, and the mesh. */
     std::string
     identity() const;
 
-    /** Of the first file that is whole; empty if there is none. */
+    /** Of the first file that is whole; empty if there is none. On the first process. */
     std::string
-    read_content() const;
+    read_content();
+
+    /** Sets the vectors from what the file says; gives the rest. */
+    nlohmann::json
+    unpack(const nlohmann::json &all, const std::vector<Vector *> &vectors, unsigned int n_needed);
 
     std::vector<double>
     gathered(const Vector &vector) const;
@@ -57,6 +82,8 @@ namespace Supple
     const Body &body;
     const Parameters &parameters;
     const std::string file, previous_file;
+    std::string read_in_words;
+    bool damaged           = false;
     unsigned int last_step = 0; ///< with a checkpoint
     std::chrono::steady_clock::time_point last_time;
   };

@@ -40,6 +40,10 @@ namespace Supple
 
     std::vector<double>
     row() const;
+
+    /** What is no finite number, as "kinetic, total"; empty where all are. */
+    std::string
+    not_finite() const;
   };
 
 
@@ -51,7 +55,8 @@ namespace Supple
     unsigned int most_inverted = 0;  ///< cells
     double min_volume_ratio    = 1.;
     double max_volume_ratio    = 1.;
-    unsigned int not_finite    = 0; ///< rows of the history with something that is no finite number
+    unsigned int not_finite =
+      0; ///< measurements with something that is none; a run ends at the first
   };
 
 
@@ -74,7 +79,8 @@ namespace Supple
   public:
     Diagnostics(const Body &body, const Loads &loads, bool stationary);
 
-    /** To be called once per step, with the rotations of @p state. */
+    /** To be called once per step, with the rotations of @p state. What is no finite number is
+     * given back, but not kept. */
     Measurement
     measure(unsigned int step,
             double time,
@@ -96,6 +102,10 @@ namespace Supple
     }
 
   private:
+    /** Energies, momenta and volumes; neither dissipated nor work. */
+    Measurement
+    measure_body(const State &state, double load_factor) const;
+
     void
     note_extremes(const Measurement &measurement, double rise);
 

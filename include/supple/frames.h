@@ -23,6 +23,10 @@ namespace Supple
     bool
     due(const State &state, const Measurement &now) const;
 
+    /** Whether a frame, whose numbers have 32 bits, can hold the state: none becomes infinite. */
+    bool
+    can_hold(const State &state) const;
+
     /** Writes the state, unless it was written already. The rotations must be those of the state.
      */
     void

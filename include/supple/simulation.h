@@ -11,6 +11,8 @@
 #include <supple/tables.h>
 #include <supple/time_integrator.h>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -139,9 +141,12 @@ namespace Supple
     void
     open_output();
 
-    /** Makes the folder and takes the results of an earlier run out of it. */
+    /** Takes the results of an earlier run out of the folder, but for frames. */
     void
-    clear_folder() const;
+    clear_results() const;
+
+    void
+    clear_frames() const;
 
     /** On the first process, anew or after so many rows. */
     void
@@ -150,6 +155,10 @@ namespace Supple
     /** Goes on from the checkpoint in the output folder, if that is wanted and there is one. */
     void
     resume();
+
+    /** Takes what a checkpoint has kept beside the vectors. */
+    void
+    load(const nlohmann::json &saved);
 
     void
     write_checkpoint();
@@ -161,8 +170,30 @@ namespace Supple
     void
     time_loop();
 
+    /**
+     * Measures the state after a step, which then is the present one.
+     * @throws InputError at the start, ComputationError later, if something is no finite number or
+     * the frame that is due could not hold it; the state then is the one before
+     */
     void
-    record(const StepReport &report);
+    measure(unsigned int after_step, const StepReport &report);
+
+    /** In words, what of a measurement, its probes and its frame is no finite number; or nothing.
+     */
+    std::string
+    what_is_not_finite(const Measurement &next) const;
+
+    /** Throws that, with the state set back. */
+    void
+    refuse(const std::string &what, const Measurement &next);
+
+    /** A row of probes.csv. */
+    std::vector<double>
+    probe_values(const Measurement &measurement) const;
+
+    /** Writes what was measured. */
+    void
+    record();
 
     /** Asks the second run for the error. */
     void
@@ -228,11 +259,14 @@ namespace Supple
 
     std::string summary_text;
     std::vector<std::string> warnings_told; ///< when the run began
-    unsigned int step     = 0;
-    bool resumed          = false;
-    double seconds_before = 0.; ///< of the runs that this one goes on from
+    unsigned int step         = 0;
+    bool resumed              = false;
+    unsigned int steps_before = 0;  ///< of the runs that this one goes on from
+    double seconds_before     = 0.; ///< of the runs that this one goes on from
     Measurement now;
-    double error_estimate = 0.; ///< sum of the local errors [m]
+    std::vector<double> probes_now; ///< the row of probes.csv
+    State before;                   ///< the present step; counts where it is observed
+    double error_estimate = 0.;     ///< sum of the local errors [m]
     Vector start_displacement;
     double largest_energy = 0.; ///< kinetic and elastic, so far [J]
     double largest_motion = 0.; ///< of a vertex from its place at the start, so far [m]
