@@ -36,9 +36,9 @@ namespace Supple
     if (parameters.method != SolverParameters::Method::automatic)
       {
         const bool alone = dealii::Utilities::MPI::n_mpi_processes(A.body.mesh.communicator) == 1;
-        text << ". Where Solver/Method is auto another solver takes over; by name there "
+        text << " (Solver/Method = auto has another solver take over; by name there "
              << (name() == "cg-ml" ? "is cg-amg" : "is cg-ml")
-             << (alone ? ", or cholmod and ldlt" : ", or cholmod and ldlt on one process");
+             << (alone ? ", or cholmod and ldlt)" : ", or cholmod and ldlt on one process)");
       }
     throw ComputationError(text.str());
   }
