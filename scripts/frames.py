@@ -9,6 +9,8 @@ from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to
 
 def read_frames(folder):
     """(time, file) of each frame."""
+    if not (folder / "solution.pvd").is_file():
+        raise SystemExit(f"{folder} has no solution.pvd: it is not the output folder of a run with frames.")
     record = xml.etree.ElementTree.parse(folder / "solution.pvd")
     return [(float(entry.get("timestep")), folder / entry.get("file")) for entry in record.iter("DataSet")]
 

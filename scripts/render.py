@@ -14,9 +14,12 @@ import pathlib
 import subprocess
 import tempfile
 
-import numpy
-import vtk
-from PIL import Image
+try:
+    import numpy
+    import vtk
+    from PIL import Image
+except ModuleNotFoundError as missing:
+    raise SystemExit(f"{missing}: start it by scripts/render.sh, which takes the Python that has it.")
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 from frames import at_rest, enlarge, places, read_frames, read_grid, values
@@ -284,6 +287,10 @@ def choose(folder, times):
     frames = read_frames(folder)
     if times is None:
         return [frames[0], frames[len(frames) // 2], frames[-1]]
+    gap = max((after[0] - before[0] for before, after in zip(frames, frames[1:])), default=0)
+    for time in times:
+        if not frames[0][0] - gap <= time <= frames[-1][0] + gap:
+            print(f"{folder} has frames from {frames[0][0]:g} to {frames[-1][0]:g} s; the nearest one to {time:g} s is drawn.")
     return [min(frames, key=lambda frame: abs(frame[0] - time)) for time in times]
 
 

@@ -107,9 +107,10 @@ namespace Supple
     const std::size_t size = longest_row * sizeof(std::uint32_t);
     ghost_records.assign(n_local * size, char(-1)); // no_aggregate, where the row has ended
     for (std::uint32_t node = 0; node < n_owned; ++node)
-      std::memcpy(ghost_records.data() + node * size,
-                  column.data() + row_start[node],
-                  (row_start[node + 1] - row_start[node]) * sizeof(std::uint32_t));
+      if (row_start[node + 1] > row_start[node])
+        std::memcpy(ghost_records.data() + node * size,
+                    column.data() + row_start[node],
+                    (row_start[node + 1] - row_start[node]) * sizeof(std::uint32_t));
     halo->update(ghost_records.data(), size);
     for (std::uint32_t node = n_owned; node < n_local; ++node)
       {

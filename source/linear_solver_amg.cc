@@ -1,7 +1,9 @@
 #include <supple/iterative_solver.h>
 #include <supple/multigrid.h>
+#include <supple/previous_solutions.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace Supple
@@ -18,6 +20,11 @@ namespace Supple
 
     // It does not come forward if it needs more iterations for that.
     constexpr unsigned int single_precision_iterations = 100;
+
+    // How much of the residual a first guess leaves at most, and up to how many degrees of freedom
+    // there is one: of a bar of 98304 tetrahedra it saves nothing.
+    constexpr double largest_guess_residual   = 0.5;
+    constexpr unsigned int largest_guess_size = 50000;
 
     // What the coarse levels cost to compute, in iterations, measured on the bar.
     constexpr double refresh_cost = 12.;
@@ -43,21 +50,33 @@ namespace Supple
         n_solves   = 0;
         excess_sum = 0.;
         excess     = 0.;
+        new_rate   = {};
       }
 
+      /**
+       * @param reduction of the residual, its logarithm
+       * @param guessed   whether there was a first guess: what it leaves takes more iterations for
+       * the same reduction
+       */
       void
-      solved(const unsigned int n_iterations)
+      solved(const unsigned int n_iterations, const double reduction, const bool guessed)
       {
-        if (n_solves == 0)
-          new_iterations = n_iterations;
-        excess = double(n_iterations) - double(new_iterations);
+        if (!(reduction > 1.) || !std::isfinite(reduction)) // too few iterations to tell
+          return;
+        const double rate = n_iterations / reduction;
+        if (new_rate[guessed] == 0.)
+          new_rate[guessed] = mean_rate[guessed] = rate;
+        mean_rate[guessed] += (guessed ? weight : 1.) * (rate - mean_rate[guessed]);
+        excess = (mean_rate[guessed] - new_rate[guessed]) * reduction;
         excess_sum += excess;
         ++n_solves;
       }
 
     private:
-      unsigned int n_solves       = 0;
-      unsigned int new_iterations = 0;
+      static constexpr double weight = 0.25; ///< of a guessed solution in the mean of the last ones
+
+      unsigned int n_solves          = 0;
+      std::array<double, 2> new_rate = {}, mean_rate = {}; ///< iterations for a reduction by e
       double excess = 0., excess_sum = 0.;
     };
 
@@ -132,7 +151,19 @@ namespace Supple
         , z(A.body.n_local)
         , p(A.body.n_local)
         , q(A.body.n_local)
+        , guesses(!A.body.patches && A.body.n_dofs() <= largest_guess_size)
+        , previous(A.body)
       {
+      }
+
+      void
+      forget() override
+      {
+        built          = false;
+        rule           = {};
+        reduction      = largest_reduction;
+        last_curvature = 0.;
+        previous.clear();
       }
 
       std::string
@@ -177,23 +208,39 @@ namespace Supple
       unsigned int
       do_solve(Vector &x, const Vector &b, Vector &residual) override
       {
+        const double size   = b.l2_norm();
+        const double before = A.body.patches ? size : begin(x, b, residual, size);
         const unsigned int n_iterations =
           A.body.patches ? solve_from_zero(x, b, residual, DoublePrecision(multigrid, r, z))
-                         : solve_in_single_precision(x, b, residual);
-        rule.solved(n_iterations);
+                         : solve_in_single_precision(x, b, residual, before);
+        if (guesses)
+          previous.add(x, b, residual);
+        rule.solved(n_iterations, std::log(before / residual.l2_norm()), before < size);
         return n_iterations;
+      }
+
+      /** Sets x to the best guess at hand. @return the norm of its residual */
+      double
+      begin(Vector &x, const Vector &b, Vector &residual, const double size)
+      {
+        if (previous.guess(x, b))
+          {
+            const double norm = set_residual(residual, x, b);
+            if (norm < largest_guess_residual * size)
+              return norm;
+          }
+        x        = 0.;
+        residual = b;
+        return size;
       }
 
       /** As far as that comes. */
       unsigned int
-      solve_in_single_precision(Vector &x, const Vector &b, Vector &residual)
+      solve_in_single_precision(Vector &x, const Vector &b, Vector &residual, double norm)
       {
         const double size = b.l2_norm(), goal = parameters.tolerance * size;
-        double norm               = size;
         unsigned int n_iterations = 0;
         last_curvature            = 0.;
-        x                         = 0.;
-        residual                  = b;
         while (norm > goal && reduction <= smallest_reduction)
           {
             const double before = norm;
@@ -289,6 +336,8 @@ namespace Supple
       const std::size_t n_owned;
       std::vector<double> rigid_motions;
       NodeVector correction, r, z, p, q;
+      const bool guesses;
+      PreviousSolutions previous; ///< none without guesses
       double last_rho       = 0.; ///< r.z of the last iteration
       double last_curvature = 0.; ///< p.q of the last iteration
     };

@@ -10,63 +10,13 @@
 
 #include <supple/command_line.h>
 #include <supple/error.h>
-#include <supple/identification.h>
-#include <supple/simulation.h>
-#include <supple/study.h>
+#include <supple/tasks.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
 #include <iostream>
 #include <new>
-
-namespace
-{
-  /** A scene, or a study or an identification, which run many. */
-  template <typename Task, typename TaskParameters>
-  void
-  execute_task(const Supple::CommandLine &line)
-  {
-    const auto parameters = TaskParameters::read(line.scene, line.overrides);
-    const auto folder     = line.output.empty() ? parameters.output_folder() : line.output;
-    Task task(parameters, folder, line.quiet, MPI_COMM_WORLD);
-    if (line.action == Supple::CommandLine::Action::run)
-      task.run();
-    else
-      task.check();
-  }
-
-
-  void
-  execute(const Supple::CommandLine &line, const bool root)
-  {
-    using namespace Supple;
-    using Action = CommandLine::Action;
-    switch (line.action)
-      {
-        case Action::print_help:
-          if (root)
-            std::cout << CommandLine::help();
-          return;
-        case Action::print_version:
-          if (root)
-            std::cout << "supple " << SUPPLE_VERSION << std::endl;
-          return;
-        case Action::print_parameters:
-          if (root)
-            Parameters::print_reference(std::cout, line.format);
-          return;
-        case Action::check:
-        case Action::run:
-          if (StudyParameters::is_study(line.scene))
-            execute_task<Study, StudyParameters>(line);
-          else if (IdentificationParameters::is_identification(line.scene))
-            execute_task<Identification, IdentificationParameters>(line);
-          else
-            execute_task<Simulation, Parameters>(line);
-      }
-  }
-} // namespace
 
 
 int
@@ -92,7 +42,7 @@ main(int argc, char **argv)
   };
   try
     {
-      execute(Supple::CommandLine::parse(argc, argv), root);
+      Supple::execute(Supple::CommandLine::parse(argc, argv), MPI_COMM_WORLD);
       return 0;
     }
   catch (const Supple::InputError &error)

@@ -83,6 +83,7 @@ namespace Supple
                          "INDEX.");
       }
 
+    constexpr double margin       = 0.01; // of the box's sides
     const auto [vertex, distance] = body.nearest_vertex(point);
     std::vector<bool> nodes(body.n_local);
     for (unsigned int node = 0; node < body.n_local; ++node)
@@ -91,6 +92,9 @@ namespace Supple
     description << body.vertex_in_words(vertex) << ", " << distance
                 << " m from the point asked for";
     add(name, nodes, description.str());
+    if (!body.mesh.bounding_box.point_inside(point, margin))
+      points_outside.push_back("Probe " + name + " follows " + description.str() +
+                               ", which is outside of the body.");
   }
 
 

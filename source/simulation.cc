@@ -283,6 +283,7 @@ namespace Supple
       rest["diagnostics"] = diagnostics.save();
     if (frames)
       rest["frames"] = frames->save();
+    solver->forget(); // as a run that goes on from here
     const auto vectors = kept_vectors();
     checkpoint.write(step, {vectors.begin(), vectors.end()}, rest);
   }

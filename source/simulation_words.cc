@@ -141,6 +141,7 @@ namespace Supple
                      "(subsection Time).");
     if (!constraints.free_pieces_in_words().empty())
       list.push_back(constraints.free_pieces_in_words());
+    list.insert(list.end(), probes.warnings().begin(), probes.warnings().end());
     if (body.rotation == RotationMethod::gram_schmidt)
       list.push_back(
         "Gram-Schmidt rotations have no elastic energy: 'elastic' is the energy of the same "

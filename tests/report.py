@@ -189,7 +189,7 @@ for row, point in zip(surfaces, shown):
 
 if not chromium.program():
     print("There is no Chromium: pages were not opened.")
-    raise SystemExit(0)
+    raise SystemExit(77)  # told as skipped
 
 # How many colours the body has, beside that of the background.
 COLOURS = """(() => {

@@ -44,3 +44,6 @@ sums = [runner.simulate(runner.BAR, {**smooth, "Time/Step": 0.01 / n, "Time/Step
         .summary()["error_estimate"]["sum_of_local_errors"] for n in (1, 2, 4)]
 for coarse, fine in zip(sums, sums[1:]):
     runner.check(1.8 < coarse / fine < 2.2, f"the error estimates {sums} do not halve with the step")
+
+warnings = runner.simulate(runner.BAR, {"Probes/Points": "tip: 9, 9, 9; end: 4, 0, 4.01", "Time/Steps": 1}).summary()["warnings"]
+runner.check(len(warnings) == 1 and "Probe tip follows vertex 74" in warnings[0] and "outside of the body" in warnings[0], f"{warnings}")

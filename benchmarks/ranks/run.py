@@ -34,11 +34,13 @@ def counted(settings, n_ranks, program, folder):
 
 
 def messages_a_step(settings, n_ranks, program):
+    """The summary of the long run, and what counted() says, a step."""
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run(["mpicc", "-O2", "-shared", "-fPIC", pathlib.Path(__file__).with_name("messages.c"),
                         "-o", f"{folder}/messages.so"], check=True)
-        runs = [counted({**settings, "Time/Steps": steps}, n_ranks, program, folder)[1] for steps in (STEPS // 2, STEPS)]
-    return [(long - short) / (STEPS - STEPS // 2) for short, long in zip(*runs)]
+        _, short = counted({**settings, "Time/Steps": STEPS // 2}, n_ranks, program, folder)
+        summary, long = counted(settings, n_ranks, program, folder)
+    return summary, [(b - a) / (STEPS - STEPS // 2) for a, b in zip(short, long)]
 
 
 def main():
@@ -56,9 +58,10 @@ def main():
     one = None
     for n_ranks in arguments.ranks:
         timed = n_ranks <= len(os.sched_getaffinity(0))
-        counts = messages_a_step(settings, n_ranks, arguments.program)
+        summary, counts = messages_a_step(settings, n_ranks, arguments.program)
         for binding in ["none", "core"] if timed and n_ranks > 1 else ["none"]:
-            summary = timing.median_run("bar/small", settings, arguments, launcher(n_ranks, binding))
+            if timed:
+                summary = timing.median_run("bar/small", settings, arguments, launcher(n_ranks, binding))
             seconds = timing.seconds_a_step(summary)
             one = one or seconds
             print(f"| {n_ranks} | {binding} | " + (f"{1e3 * seconds:.1f} | {one / seconds:.2f}" if timed else "- | -") +

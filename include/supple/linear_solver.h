@@ -39,6 +39,13 @@ namespace Supple
     unsigned int
     solve(Vector &x, const Vector &b);
 
+    /** Forgets what it has learned of earlier systems: after the next prepare() solutions are those
+     * of a new solver. */
+    virtual void
+    forget()
+    {
+    }
+
     virtual std::string
     name() const = 0;
 

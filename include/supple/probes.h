@@ -33,6 +33,13 @@ namespace Supple
     std::vector<std::string>
     descriptions() const;
 
+    /** Which points are outside of the body, in sentences. */
+    const std::vector<std::string> &
+    warnings() const
+    {
+      return points_outside;
+    }
+
   private:
     struct Probe
     {
@@ -57,6 +64,7 @@ namespace Supple
 
     const Body &body;
     std::vector<Probe> probes;
+    std::vector<std::string> points_outside;
   };
 } // namespace Supple
 
