@@ -147,13 +147,6 @@ namespace Supple
         "Gram-Schmidt rotations have no elastic energy: 'elastic' is the energy of the same "
         "formula, and "
         "'dissipated' need not grow. They depend on the axes.");
-    if (diagnostics.extremes().energy_rises > 0 &&
-        parameters.time.energy_guard != TimeParameters::EnergyGuard::off)
-      {
-        const unsigned int n = diagnostics.extremes().energy_rises;
-        list.push_back("In " + std::to_string(n) + (n == 1 ? " step" : " steps") +
-                       " the total energy rose by more than the work that was done.");
-      }
     double poisson = 0.;
     for (const auto &[id, n_cells] : mesh.materials)
       poisson = std::max(poisson, body.material(id).poisson());
@@ -170,6 +163,23 @@ namespace Supple
       list.push_back(
         "Backward differentiation of an order above 2 (Time/Maximum order) is not "
         "stable for oscillations that hardly decay: these may grow without bounds.");
+    const std::vector<std::string> more = warnings_of_motion();
+    list.insert(list.end(), more.begin(), more.end());
+    return list;
+  }
+
+
+  std::vector<std::string>
+  Simulation::warnings_of_motion() const
+  {
+    std::vector<std::string> list;
+    if (diagnostics.extremes().energy_rises > 0 &&
+        parameters.time.energy_guard != TimeParameters::EnergyGuard::off)
+      {
+        const unsigned int n = diagnostics.extremes().energy_rises;
+        list.push_back("In " + std::to_string(n) + (n == 1 ? " step" : " steps") +
+                       " the total energy rose by more than the work that was done.");
+      }
     if (!energy_from_nowhere().empty())
       list.push_back(energy_from_nowhere());
     if (diagnostics.extremes().most_inverted > 0)

@@ -134,6 +134,10 @@ namespace Supple
     std::vector<std::string>
     warnings() const;
 
+    /** Those of them that come up in the course of a run. */
+    std::vector<std::string>
+    warnings_of_motion() const;
+
     /** A warning where the time stepping itself drives the motion, or nothing. */
     std::string
     energy_from_nowhere() const;
