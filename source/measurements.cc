@@ -33,8 +33,13 @@ namespace Supple
 
     /** Without the empty ones at the end, which spreadsheets leave. */
     std::vector<std::string>
-    fields_of(const std::string &line)
+    fields_of(const std::string &line, const std::string &place)
     {
+      constexpr std::size_t longest_line = 4000; // each field is cut off the rest of the line
+
+      if (line.size() > longest_line)
+        throw InputError(place + ": this line has " + std::to_string(line.size()) +
+                         " characters; at most " + std::to_string(longest_line) + " are read.");
       auto fields = dealii::Utilities::split_string_list(trim(line), ',');
       while (!fields.empty() && fields.back().empty())
         fields.pop_back();
@@ -122,7 +127,7 @@ namespace Supple
     const std::string byte_order_mark = "\xEF\xBB\xBF"; // that spreadsheets begin with
     if (line.rfind(byte_order_mark, 0) == 0)
       line.erase(0, byte_order_mark.size());
-    const auto titles = fields_of(line);
+    const auto titles = fields_of(line, file + ":1");
     if (titles.size() < 3 || titles[0] != "set" || titles[1] != "distance" || titles[2] != "depth")
       throw InputError(file + ":1: found '" + trim(line) +
                        "'; the first line must be set,distance,depth.");
@@ -132,7 +137,7 @@ namespace Supple
       if (!trim(line).empty())
         {
           const std::string place = file + ":" + std::to_string(n);
-          const auto fields       = fields_of(line);
+          const auto fields       = fields_of(line, place);
           check_fields(fields.size(), titles.size(), place);
           add_point(sets, fields, unit, place);
         }

@@ -7,6 +7,9 @@
 
 #include <sundials/sundials_version.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace Supple
 {
   using Json = nlohmann::ordered_json;
@@ -91,6 +94,34 @@ namespace Supple
     }
 
 
+    /** How evenly cells, ghosts and seconds are spread over the processes; collective. */
+    void
+    add_ranks(Json &json, const Model &model)
+    {
+      const Body &body                       = model.body;
+      const std::vector<LocalCell> &cells    = body.mesh.parts->cells;
+      constexpr unsigned int first_of_phases = 2;
+      std::vector<double> values             = {
+                    double(
+          std::count_if(cells.begin(), cells.end(), [](const auto &cell) { return cell.owned; })),
+                    double(body.n_local - body.n_owned)};
+      values.insert(values.end(), model.effort.seconds.begin(), model.effort.seconds.end());
+      const auto over_ranks = dealii::Utilities::MPI::min_max_avg(values, body.mesh.communicator);
+
+      const auto range = [](const dealii::Utilities::MPI::MinMaxAvg &number) -> Json {
+        return {{"least", std::lround(number.min)}, {"most", std::lround(number.max)}};
+      };
+      json["partition"] = {{"cells", range(over_ranks[0])},
+                           {"ghost_vertices", range(over_ranks[1])}};
+      for (unsigned int phase = 0; phase < phase_names.size(); ++phase)
+        {
+          const auto &seconds                          = over_ranks[first_of_phases + phase];
+          json["seconds_of_ranks"][phase_names[phase]] = {{"most", seconds.max},
+                                                          {"mean", seconds.avg}};
+        }
+    }
+
+
     /** Cube root of the volume per cell, or square root of the area per triangle [m]. */
     double
     cell_size(const Mesh &mesh)
@@ -136,6 +167,9 @@ namespace Supple
     seconds["run"]           = run_seconds;
     for (unsigned int phase = 0; phase < phase_names.size(); ++phase)
       seconds[phase_names[phase]] = effort.seconds[phase];
+
+    if (dealii::Utilities::MPI::n_mpi_processes(model.body.mesh.communicator) > 1)
+      add_ranks(json, model);
 
     if (model.implicit_operator.has_mass())
       json["error_estimate"] = errors(*this);

@@ -211,6 +211,7 @@ refused("wrong.csv:3", "'deep'", "must be a number", measurements=head + "1,0.25
 refused("wrong.csv:3", "the depth is 30 mm", "4.5 mm high", measurements=head + "1,0.25,1.8\n1,0.5,30\n1,0.75,1\n")
 refused("wrong.csv:3", "1 value(s)", measurements=head + "1,0.25,1.8\n1\n")
 refused("wrong.csv:2", "found 5 values, the first line has 3", "decimals need a point", measurements=head + "1,0,25,1,8\n1,0,5,1,7\n")
+refused("wrong.csv:1", "characters; at most 4000 are read", measurements="1," * 1200000)
 refused("wrong.prm", "Identification/Side", "set Side = right", arguments=["--set", "Probes/Profile center=-0.006, 0, 0"])
 refused("wrong.csv:3", "not nearer", "Sort", measurements=head + "1,0.5,1.8\n1,0.25,1.7\n1,0.75,1.6\n")
 refused("wrong.csv:3", "-0.1", "negative", measurements=head + "1,0.25,1.8\n1,0.5,-0.1\n1,0.75,0.1\n")

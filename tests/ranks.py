@@ -18,6 +18,12 @@ for rotation in ["none", "gram-schmidt", "polar"]:
     runner.check(history <= 1e-8, f"history.csv differs by {history}")
     runner.check(probes <= 1e-8, f"probes.csv differs by {probes}")
     runner.check(two.summary()["built"]["parallel"] and not one.summary()["built"]["parallel"], "parallel")
+    shares, seconds = two.summary()["partition"], two.summary()["seconds_of_ranks"]
+    runner.check("partition" not in one.summary() and "seconds_of_ranks" not in one.summary(), "one process has no partition")
+    runner.check(0 < shares["cells"]["least"] <= 96 <= shares["cells"]["most"] < 192 and
+                 shares["cells"]["least"] + shares["cells"]["most"] == 192, f"{shares}")
+    runner.check(0 <= shares["ghost_vertices"]["least"] <= shares["ghost_vertices"]["most"] < 81, f"{shares}")
+    runner.check(all(0 <= phase["mean"] <= phase["most"] for phase in seconds.values()) and seconds["solve"]["most"] > 0, f"{seconds}")
     runner.check(one.frame_times() == two.frame_times(), "the frames are at other times")
     print(f"{rotation}: history within {history:.1e}, probes within {probes:.1e}")
 
