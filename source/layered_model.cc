@@ -2,6 +2,7 @@
 #include <supple/error.h>
 #include <supple/expression.h>
 #include <supple/layered_model.h>
+#include <supple/near_name.h>
 #include <supple/simulation.h>
 
 #include <algorithm>
@@ -92,11 +93,13 @@ namespace Supple
   LayeredModel::check_profile() const
   {
     const auto profiles = named_list(base.probes.profiles, base.origin("Probes/Profiles"));
-    if (std::none_of(profiles.begin(), profiles.end(), [&](const auto &profile) {
-          return profile.first == identification.profile;
-        }))
+    std::vector<std::string> names;
+    for (const auto &[name, text] : profiles)
+      names.push_back(name);
+    if (std::find(names.begin(), names.end(), identification.profile) == names.end())
       throw InputError(identification.place("Profile") + ": the scene has no profile '" +
-                       identification.profile + "' (Probes/Profiles).");
+                       identification.profile + "' (Probes/Profiles)" +
+                       did_you_mean(identification.profile, names));
   }
 
 

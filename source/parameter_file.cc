@@ -1,4 +1,5 @@
 #include <supple/error.h>
+#include <supple/near_name.h>
 #include <supple/parameter_file.h>
 
 #include <deal.II/base/utilities.h>
@@ -29,16 +30,6 @@ namespace Supple
       const std::regex where("^Line <(\\d+)> of file <([^:>]*)>?: ");
       return std::regex_replace(line, where, place.empty() ? "$2:$1: " : place + ": ") +
              "\nsupple --print-parameters lists every entry.";
-    }
-
-
-    /** Names an unknown entry in full: deal.II only says that it is in the current subsection. */
-    std::string
-    with_section(const std::string &message, const std::string &entry)
-    {
-      return std::regex_replace(message,
-                                std::regex("No entry with name <.*> was declared in .*"),
-                                "there is no entry " + entry + ".");
     }
 
 
@@ -84,6 +75,55 @@ namespace Supple
             }
         }
       return found_lines;
+    }
+
+
+    /** Says more where a name is not known than deal.II, which only says that it is not there:
+     * an unknown entry in full, and which known entry, section or choice is near.
+     * @param entry which the message is about: "Section/Entry", or "Section" alone */
+    std::string
+    with_near_name(const std::string &message,
+                   const std::string &entry,
+                   const ParameterHandler &prm)
+    {
+      std::ostringstream all;
+      prm.print_parameters(all, ParameterHandler::ShortPRM);
+      const Lines known         = find_lines("", all.str());
+      const std::string section = entry.substr(0, entry.find('/'));
+      const auto line_end       = std::min(message.find('\n'), message.size());
+      std::string first = message.substr(0, line_end), rest = message.substr(line_end);
+
+      std::vector<std::string> near;
+      std::string given = entry.substr(std::min(section.size() + 1, entry.size()));
+      std::smatch found;
+      if (first.find("no such subsection") != std::string::npos)
+        {
+          given = section;
+          first = std::regex_replace(first,
+                                     std::regex("There is no such subsection.*"),
+                                     "there is no subsection " + section);
+          for (const auto &[name, place] : known.sections)
+            near.push_back(name);
+        }
+      else if (first.find("No entry with name") != std::string::npos)
+        {
+          first = std::regex_replace(first,
+                                     std::regex("No entry with name <.*> was declared in .*"),
+                                     "there is no entry " + entry);
+          for (const auto &[name, place] : known.entries)
+            if (name.rfind(section + "/", 0) == 0)
+              near.push_back(name.substr(section.size() + 1));
+        }
+      else if (std::regex_search(first,
+                                 found,
+                                 std::regex("value *(.*) for the entry .* pattern: one of (.*)$")))
+        {
+          given = found[1];
+          near  = dealii::Utilities::split_string_list(found[2], ',');
+        }
+      else
+        return message;
+      return first + did_you_mean(given, near) + rest;
     }
 
 
@@ -221,7 +261,7 @@ namespace Supple
       }
     catch (const dealii::ExceptionBase &exception)
       {
-        throw InputError(with_section(plain_message(exception, here), section + "/" + name));
+        throw InputError(with_near_name(plain_message(exception, here), section + "/" + name, prm));
       }
     places[section + "/" + name] = override.place;
   }
@@ -230,7 +270,8 @@ namespace Supple
   void
   ParameterFile::parse(ParameterHandler &prm, const std::vector<Override> &overrides)
   {
-    places = find_lines(file, text).entries;
+    const Lines lines = find_lines(file, text);
+    places            = lines.entries;
     std::istringstream content(text);
     try
       {
@@ -239,9 +280,10 @@ namespace Supple
     catch (const dealii::ExceptionBase &exception)
       {
         std::string message = plain_message(exception);
-        for (const auto &[entry, place] : places)
-          if (message.rfind(place + ": ", 0) == 0)
-            message = with_section(message, entry);
+        for (const auto *named : {&lines.sections, &lines.entries})
+          for (const auto &[name, place] : *named)
+            if (message.rfind(place + ": ", 0) == 0)
+              message = with_near_name(message, name, prm);
         throw InputError(message);
       }
     for (const Override &override : overrides)

@@ -1,6 +1,7 @@
 #include <supple/study_quantities.h>
 
 #include <supple/error.h>
+#include <supple/near_name.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -122,7 +123,8 @@ namespace Supple
   {
     if (available.count(name) == 0)
       throw InputError(place + ": '" + name + "' is no column of history.csv or probes.csv; " +
-                       joined(available) + " are.");
+                       joined(available) + " are" +
+                       did_you_mean(name, {available.begin(), available.end()}));
   }
 
 
@@ -189,7 +191,8 @@ namespace Supple
         else if (std::none_of(all_values.begin(), all_values.end(), [&](const Value &value) {
                    return value.name == item.name;
                  }))
-          throw InputError(place + ": '" + item.name + "' is no name in Study/Columns.");
+          throw InputError(place + ": '" + item.name + "' is no name in Study/Columns" +
+                           did_you_mean(item.name, value_names()));
         exact.push_back({item.name, Expression(item.rest, 1, place)});
       }
   }

@@ -52,6 +52,19 @@ with_text("set Poisson", "Poisson", "scene.prm:", "could not be parsed")
 with_text("= polar\nend", "= polar", "scene.prm", "subsection")
 
 with_setting("Material/Yung modulus", 3, "Yung modulus", "--print-parameters")
+
+# The known name that is near, if one is nearer than all others.
+with_text("Young modulus", "Yung modulus", "no entry Material/Yung modulus; did you mean 'Young modulus'?")
+with_text("subsection Material", "subsection Materials", "no subsection Materials; did you mean 'Material'?")
+with_text("= polar", "= polr", "none, gram-schmidt, polar; did you mean 'polar'?")
+for entry, known in [("Material/young Modulus", "Young modulus"), ("Material/Young", "Young modulus"), ("Materal/Density", "Material"),
+                     ("Motion 22/Of", "Motion 2"), ("Time/Stps", "Steps"), ("Mesh/Box", None), ("Time/Frobnicate", None), ("T/Step", None)]:
+    status, _, error = runner.run(runner.BAR, "--set", f"{entry}=3")
+    meant = error.split("did you mean ")[1].split("?")[0] if "did you mean" in error else "None"
+    runner.check(status == 1 and meant == (repr(known) if known else "None"), f"{entry}: {error}")
+for value, known in [("bakward euler", "'backward euler'"), ("esdirk6", None), ("explicit", None), ("ID", "'ida'"), ("x", None)]:
+    status, _, error = runner.run(runner.BAR, "--set", f"Time/Method={value}")
+    runner.check(status == 1 and (f"did you mean {known}?" in error if known else "did you mean" not in error), error)
 with_setting("Materials/Density", 3, "Materials")
 refused([runner.BAR, "--set", "nonsense"], "Section/Entry=value")
 for entry, values, words in [
