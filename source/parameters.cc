@@ -455,8 +455,8 @@ namespace Supple
                        ": a static problem knows no velocity; take the damping out of the scene.");
     if (time.problem == TimeParameters::Problem::stationary &&
         !Expression(start.velocity, 3, origin("Start/Velocity")).is_zero())
-      throw InputError(origin("Start/Velocity") +
-                       ": a static problem knows no velocity; it must be 0; 0; 0.");
+      throw InputError(origin("Start/Velocity") + ": a static problem (" + origin("Time/Problem") +
+                       ") knows no velocity; it must be 0; 0; 0.");
   }
 
 

@@ -6,6 +6,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <regex>
@@ -26,6 +27,30 @@ namespace Supple
       for (const PlannedRun &run : runs)
         if (!names.insert(run.folder_name()).second)
           throw InputError(place + ": '" + run.label() + "' is there twice.");
+    }
+
+
+    /** "Section/Entry" of an override, or all of it if it is none. */
+    std::string
+    entry_of(const Override &override)
+    {
+      const std::string path = override.text.substr(0, override.text.find('='));
+      const auto slash       = path.find('/');
+      return slash == std::string::npos
+               ? path
+               : trim(path.substr(0, slash)) + "/" + trim(path.substr(slash + 1));
+    }
+
+
+    /** The override of an entry among these that counts, if there is one. */
+    const Override *
+    last_of(const std::vector<Override> &overrides, const std::string &entry)
+    {
+      const auto found =
+        std::find_if(overrides.rbegin(), overrides.rend(), [&](const Override &override) {
+          return entry_of(override) == entry;
+        });
+      return found == overrides.rend() ? nullptr : &*found;
     }
   } // namespace
 
@@ -91,6 +116,39 @@ namespace Supple
     for (PlannedRun &run : runs)
       if (run.right_if.empty())
         run.right_if = study.right_if;
+    check_command_line();
+  }
+
+
+  void
+  StudyPlan::check_command_line() const
+  {
+    for (const Override &override : task.command_line)
+      {
+        const std::string entry = entry_of(override);
+        // Steps of methods are told by the scene's end, which these make.
+        if (kind == Kind::methods && (entry == "Time/Step" || entry == "Time/Steps"))
+          continue;
+        const auto sets_it = [&](const PlannedRun &run) {
+          return last_of(run.overrides, entry) != nullptr;
+        };
+        if (std::all_of(runs.begin(), runs.end(), sets_it) &&
+            std::all_of(references.begin(), references.end(), sets_it))
+          throw InputError(override.place + " \"" + override.text +
+                           "\": it would change nothing, for each run of the study sets " + entry +
+                           " (" + last_of(runs.front().overrides, entry)->place + ").");
+      }
+  }
+
+
+  std::string
+  StudyPlan::changed_by_hand(const std::vector<std::string> &entries) const
+  {
+    for (const std::string &entry : entries)
+      for (const Override &override : task.command_line)
+        if (entry_of(override) == entry)
+          return base.origin(entry) + " does not go with ";
+    return "";
   }
 
 
@@ -143,8 +201,9 @@ namespace Supple
     if (std::abs(n_steps * value - end) > 1e-9 * end || n_steps > 2e9)
       {
         std::ostringstream text;
-        text << place << ": the step " << number << " of " << item.title << " does not divide the "
-             << end << " s of the scene; " << end << "/" << n_steps << " does.";
+        text << changed_by_hand({"Time/Step", "Time/Steps"}) << place << ": the step " << number
+             << " of " << item.title << " does not divide the " << end << " s of the scene; " << end
+             << "/" << n_steps << " does.";
         throw InputError(text.str());
       }
     run.overrides.push_back({"Time/Variable steps=false", place});
@@ -158,7 +217,8 @@ namespace Supple
   StudyPlan::plan_methods(const StudyParameters &study)
   {
     if (base.time.problem == TimeParameters::Problem::stationary)
-      throw InputError(study.place("Methods") + ": the scene is static and has no method in time.");
+      throw InputError(changed_by_hand({"Time/Problem"}) + study.place("Methods") +
+                       ": the scene is static and has no method in time.");
     const std::string place = study.place("Methods");
     for (const StudyItem &item : study_items(study.methods, place))
       {

@@ -108,6 +108,7 @@ namespace Supple
   StudyQuantities::StudyQuantities(const StudyParameters &study, const StudyPlan &plan)
     : kind(plan.kind)
     , available(StudyRecord::column_names(plan.base))
+    , probes_changed(plan.changed_by_hand({"Probes/Points", "Probes/Boundaries", "Probes/Regions"}))
     , condition_place(study.place(study.right_if.empty() ? "Cases" : "Right if"))
   {
     read_values(study);
@@ -122,9 +123,9 @@ namespace Supple
   StudyQuantities::check_column(const std::string &name, const std::string &place) const
   {
     if (available.count(name) == 0)
-      throw InputError(place + ": '" + name + "' is no column of history.csv or probes.csv; " +
-                       joined(available) + " are" +
-                       did_you_mean(name, {available.begin(), available.end()}));
+      throw InputError(probes_changed + place + ": '" + name +
+                       "' is no column of history.csv or probes.csv; " + joined(available) +
+                       " are" + did_you_mean(name, {available.begin(), available.end()}));
   }
 
 
@@ -132,12 +133,13 @@ namespace Supple
   StudyQuantities::read_quantities(const StudyParameters &study, const StudyPlan &plan)
   {
     const std::string place = study.place("Quantities");
-    for (const auto &[name, text] : named_list(plan.base.probes.points, "Probes/Points"))
+    for (const auto &[name, text] :
+         named_list(plan.base.probes.points, plan.base.origin("Probes/Points")))
       points.push_back(name);
     for (const std::string &name : dealii::Utilities::split_string_list(study.quantities, ','))
       {
         if (name == "probes" && points.empty())
-          throw InputError(place +
+          throw InputError(plan.changed_by_hand({"Probes/Points"}) + place +
                            ": the scene follows no point (Probes/Points); take 'final "
                            "field' or energy.");
         if (name != "probes" && name != "final field" && name != "energy")

@@ -53,9 +53,11 @@ namespace Supple
   {
     const auto names = Measurement::column_names();
     std::set<std::string> all(names.begin(), names.end());
-    for (const std::string &probes :
-         {parameters.probes.points, parameters.probes.boundaries, parameters.probes.regions})
-      for (const auto &[name, text] : named_list(probes, "Probes"))
+    const ProbeParameters &probes = parameters.probes;
+    for (const auto &[entry, list] : {std::make_pair("Probes/Points", probes.points),
+                                      std::make_pair("Probes/Boundaries", probes.boundaries),
+                                      std::make_pair("Probes/Regions", probes.regions)})
+      for (const auto &[name, text] : named_list(list, parameters.origin(entry)))
         for (const char quantity : {'u', 'v', 'f'})
           for (const char direction : {'x', 'y', 'z'})
             all.insert(name + "." + quantity + direction);

@@ -214,6 +214,27 @@ runner.check(status == 1 and "both.prm:7: subsection Time beside Study" in error
 status, _, error = runner.run(runner.BAR, "--set", "Study/Repeats=1")
 runner.check(status == 1 and "Study" in error, error)
 
+# What is wrong with an entry of the command line is its fault, not that of the study; what changes nothing is refused.
+levels = write("levels-of-time", Scene=runner.BAR, Levels="1 [Time/Step=0.07]; 2 [Time/Step = 0.035]", Columns="a: n0.ux", Exact="a: 1")
+cases = write("some-cases", Scene=runner.BAR, Cases="a [Time/Step=0.07]; b []", Columns="a: n0.ux")
+methods = write("methods", **right)
+for path, setting, words in [
+        (methods, "Time/Step=-1", 'supple: --set "Time/Step=-1": '),
+        (methods, "Time/Stp=1", 'supple: --set "Time/Stp=1": there is no entry Time/Stp; did you mean'),
+        (methods, "Time/Step=0.03", "supple: --set: Time/Step = 0.03 does not go with "),
+        (methods, "Time/Method=ida", 'supple: --set "Time/Method=ida": it would change nothing'),
+        (methods, "Probes/Points=", "supple: --set: Probes/Points = "),
+        (methods, "Probes/Regions=a b", "supple: --set: Probes/Regions = a b: "),
+        (methods, "Time/Problem=static", "(--set: Time/Problem = static)"),
+        (methods, "Study/Reference=esdirk6: step 0.07", "supple: --set: Study/Reference: "),
+        (levels, "Time/Step=0.01", 'supple: --set "Time/Step=0.01": it would change nothing'),
+        (levels, "Probes/Points=", "supple: --set: Probes/Points = ")]:
+    status, _, error = runner.run("--check", path, "--set", setting)
+    runner.check(status == 1 and words in error, f"{setting}: {error}")
+status, _, error = runner.run("--check", cases, "--set", "Time/Step=0.01")
+runner.check(status == 0, error)
+refused("'n28.uxx' is no column", "did you mean 'n28.ux'?", Quantities="n28.uxx")
+
 # What is set on the command line goes to all runs; what is printed as parameters stays a scene.
 rows = study("orders", arguments=["--set", "Study/Methods=trbdf2: steps 0.07/20", "--set", "Time/Steps=2", "--set", "Time/Step=0.007"],
              **bar | {"Reference": "esdirk4: step 0.007"})

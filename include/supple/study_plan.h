@@ -68,6 +68,14 @@ namespace Supple
     Parameters
     parameters(const PlannedRun &run) const;
 
+    /**
+     * The beginning of a message about what an entry of the study asks of its scene, if the command
+     * line changed one of these entries of the scene: "--set: Time/Step = 0.03 does not go with ".
+     * Else nothing: the study itself is to blame.
+     */
+    std::string
+    changed_by_hand(const std::vector<std::string> &entries) const;
+
     /** The parameters that all runs start from. */
     const Parameters base;
 
@@ -83,6 +91,10 @@ namespace Supple
 
     void
     plan_cases(const StudyParameters &study);
+
+    /** Refuses what is set on the command line, but set otherwise in each run. */
+    void
+    check_command_line() const;
 
     /** A method with this step or tolerance. @param word steps or tolerances, or one of them */
     PlannedRun

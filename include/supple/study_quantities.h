@@ -103,6 +103,7 @@ namespace Supple
 
     const StudyPlan::Kind kind;
     const std::set<std::string> available; ///< columns
+    const std::string probes_changed;      ///< by the command line: the beginning of a message
     std::vector<std::string> points;       ///< names of point probes
     std::vector<std::string> quantities;
     std::vector<Value> all_values;
