@@ -279,6 +279,9 @@ with chromium.Chromium() as browser:
         opens(browser, file, word, **SMALLER)
         told = browser.evaluate("document.querySelector('.notice')?.textContent ?? ''")
         runner.check(word in told or "failed" in told, f"the reason is not on top: {told}")
+        if word == "1/0":
+            n = len(Page(failed).frames)
+            runner.check(f"{n}/{n}" in browser.evaluate(LABEL), "a failed run does not open at its end")
     opens(browser, curves.folder / "report.html", "without frames", **SMALLER)
     opens(browser, still.folder / "report.html", "without history", **SMALLER)
     opens(browser, late.file, "from a later instant on", **SMALLER)

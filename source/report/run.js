@@ -200,7 +200,8 @@ export function showRun(data, surfaceText, page) {
       element('p', {}, `Written by Supple ${data.summary.versions.supple}. It needs no network.`)));
   charts.draw();
   charts.showProbe?.();
-  player.set(surface ? surface.times[surface.farthestFrame] : player.last);
+  const failed = data.summary.status.startsWith('failed'); // what is looked for then is how it ended
+  player.set(surface && !failed ? surface.times[surface.farthestFrame] : player.last);
   document.addEventListener('keydown', (event) => {
     if (!(stage instanceof Stage) || event.target.closest('input, select') || event.ctrlKey || event.metaKey) return;
     if (event.key === 'w') stage.wireButton.click();
