@@ -55,8 +55,21 @@ namespace Supple
     integrator         = TimeIntegrator::create(model(), state.block(0));
     start_displacement = state.block(0);
     if (parameters.time.estimate_error)
-      step_doubling = std::make_unique<StepDoubling>(parameters, communicator);
+      create_step_doubling();
     setup_seconds = seconds_since_start();
+  }
+
+
+  void
+  Simulation::create_step_doubling()
+  {
+    const auto second =
+      std::make_shared<Simulation>(StepDoubling::second_scene(parameters), "", true, communicator);
+    step_doubling = std::make_unique<StepDoubling>(parameters.time, [second](const double time) {
+      while (second->time() < time * (1. - 1e-12) && !second->finished())
+        second->advance();
+      return StepDoubling::Arrival{second->time(), second->current_state()};
+    });
   }
 
 

@@ -1,7 +1,6 @@
 #include <supple/step_doubling.h>
 
 #include <supple/error.h>
-#include <supple/simulation.h>
 
 #include <chrono>
 #include <cmath>
@@ -10,27 +9,6 @@ namespace Supple
 {
   namespace
   {
-    Parameters
-    finer(const Parameters &scene)
-    {
-      Parameters second          = scene;
-      second.time.estimate_error = false;
-      second.output.history      = false;
-      second.output.frames       = OutputParameters::Frames::none;
-      if (scene.time.has_variable_steps())
-        for (double *tolerance : {&second.time.relative_tolerance,
-                                  &second.time.displacement_tolerance,
-                                  &second.time.velocity_tolerance})
-          *tolerance *= 0.1;
-      else
-        {
-          second.time.step *= 0.5;
-          second.time.n_steps *= 2;
-        }
-      return second;
-    }
-
-
     /** The error over the distance from the second run. With variable steps the tolerance is that
      * of a step, whose length goes with its (p+1)-st root, and the error with its p-th power. */
     double
@@ -43,15 +21,33 @@ namespace Supple
   } // namespace
 
 
-  StepDoubling::StepDoubling(const Parameters &scene, const MPI_Comm communicator)
-    : name(scene.time.has_variable_steps() ? "a tenth of the tolerances" : "half the step")
-    , factor(factor_of(scene.time))
-    , second(std::make_unique<Simulation>(finer(scene), "", true, communicator))
+  Parameters
+  StepDoubling::second_scene(const Parameters &scene)
   {
+    Parameters second          = scene;
+    second.time.estimate_error = false;
+    second.output.history      = false;
+    second.output.frames       = OutputParameters::Frames::none;
+    if (scene.time.has_variable_steps())
+      for (double *tolerance : {&second.time.relative_tolerance,
+                                &second.time.displacement_tolerance,
+                                &second.time.velocity_tolerance})
+        *tolerance *= 0.1;
+    else
+      {
+        second.time.step *= 0.5;
+        second.time.n_steps *= 2;
+      }
+    return second;
   }
 
 
-  StepDoubling::~StepDoubling() = default;
+  StepDoubling::StepDoubling(const TimeParameters &time, const SecondRun &second_run)
+    : name(time.has_variable_steps() ? "a tenth of the tolerances" : "half the step")
+    , factor(factor_of(time))
+    , second_run(second_run)
+  {
+  }
 
 
   std::optional<double>
@@ -60,20 +56,20 @@ namespace Supple
     if (!failure.empty())
       return {};
     const auto start = std::chrono::steady_clock::now();
+    std::optional<Arrival> second;
     try
       {
-        while (second->time() < time * (1. - 1e-12) && !second->finished())
-          second->advance();
+        second.emplace(second_run(time));
       }
     catch (const ComputationError &error)
       {
         failure = error.what();
       }
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (!failure.empty() || std::abs(second->time() - time) > 1e-9 * time)
+    if (!second || std::abs(second->time - time) > 1e-9 * time)
       return {};
 
-    last = factor * largest_vertex_distance(state.block(0), second->current_state().block(0));
+    last = factor * largest_vertex_distance(state.block(0), second->state.block(0));
     if (!std::isfinite(last))
       {
         failure = "its motion is too large to be compared";

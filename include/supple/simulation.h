@@ -115,6 +115,10 @@ namespace Supple
     void
     create_initial_state();
 
+    /** The second run, which tells the error of this one. */
+    void
+    create_step_doubling();
+
     /** Sets the displacement of the rotation that the scene starts with. */
     void
     turn(Vector &displacement) const;

@@ -4,14 +4,12 @@
 #include <supple/parameters.h>
 #include <supple/vector.h>
 
-#include <memory>
+#include <functional>
 #include <optional>
 #include <string>
 
 namespace Supple
 {
-  class Simulation;
-
   /**
    * The error of a run by step doubling: a second run of the same scene, with half the step, moves
    * along. Where the error falls with the power p of the step,
@@ -24,10 +22,23 @@ namespace Supple
   class StepDoubling
   {
   public:
-    /** @param scene of the run whose error is asked for */
-    StepDoubling(const Parameters &scene, MPI_Comm communicator);
+    /** Where the second run is. */
+    struct Arrival
+    {
+      double time; ///< [s], or load factor
+      const State &state;
+    };
 
-    ~StepDoubling();
+    /** Moves the second run up to a time or just past it. */
+    using SecondRun = std::function<Arrival(double time)>;
+
+    /** What the second run is to be made of. @param scene of the run whose error is asked for */
+    static Parameters
+    second_scene(const Parameters &scene);
+
+    /** @param time of the run whose error is asked for
+     *  @param second_run of second_scene(); it may throw a ComputationError */
+    StepDoubling(const TimeParameters &time, const SecondRun &second_run);
 
     /**
      * Moves the second run up to this time.
@@ -45,7 +56,7 @@ namespace Supple
 
   private:
     const double factor;
-    std::unique_ptr<Simulation> second;
+    const SecondRun second_run;
   };
 } // namespace Supple
 
