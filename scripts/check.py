@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Looks through the tree without building anything: lengths of files and functions, include guards, white space, and
-the links of the Markdown pages. scripts/check.py [--longest N]; --longest lists the longest files and functions instead."""
+"""Looks through the tree without building anything: lengths of files and functions, include guards, white space, the links
+of the Markdown pages, and whether the picture of the modules has all headers. scripts/check.py [--longest N]; --longest lists
+the longest files and functions instead."""
 
 import argparse
 import ast
+import fnmatch
 import pathlib
 import re
 import subprocess
@@ -15,6 +17,10 @@ MOST_LINES_OF_FUNCTION = 60
 CODE = {".cc", ".h", ".py", ".js", ".mjs", ".css", ".sh"}
 NO_TEXT = {".png", ".svg", ".msh", ".output", ".csv", ".json"}
 SCOPE = re.compile(r"\s*(inline )?(namespace|struct|class|enum|union|extern)\b")
+
+JAVASCRIPT_FUNCTION = re.compile(r"(?P<indent>\s*)(export |default |async |static |get |set )*"
+                                 r"((function\*? |(const|let) )?(?P<name>\w+)( = .*=>|\s?\(.*\))) \{$")
+JAVASCRIPT_WORDS = {"if", "for", "while", "switch", "catch", "with"}
 
 
 def files():
@@ -50,8 +56,18 @@ def functions_of_python(text):
             yield node.lineno, node.name, node.end_lineno - node.lineno
 
 
+def functions_of_javascript(lines):
+    """As in C++: what a function opens at the end of a line is closed by the next brace as far in."""
+    for number, line in enumerate(lines):
+        if (found := JAVASCRIPT_FUNCTION.match(line)) and line.endswith("{") and found["name"] not in JAVASCRIPT_WORDS:
+            end = next(i for i in range(number + 1, len(lines)) if lines[i].startswith(found["indent"] + "}"))
+            yield number + 1, found["name"], end - number - 1
+
+
 def functions(path):
     text = path.read_text()
+    if path.suffix in (".js", ".mjs"):
+        return list(functions_of_javascript(text.split("\n")))
     if path.suffix in (".cc", ".h"):
         return list(functions_of_cpp(text.split("\n")))
     return list(functions_of_python(text)) if path.suffix == ".py" else []
@@ -126,6 +142,20 @@ def link_problems(path):
                 yield f"{number}: {name or path.name} has no heading for #{anchor}"
 
 
+def picture_problems():
+    """doc/modules.dot names every header, perhaps many at once as in *_parameters, and nothing that is not there."""
+    named = {name for names in re.findall(r'color="#5b666e">(.*?)</font>', (ROOT / "doc/modules.dot").read_text())
+             for name in re.split(r"(?:, ?|<br/>)+", names)}
+    headers = {path.stem for path in (ROOT / "include/supple").glob("*.h")}
+    sources = headers | {path.stem for path in (ROOT / "source").glob("*.cc")}
+    for header in sorted(headers):
+        if not any(fnmatch.fnmatch(header, name) for name in named):
+            yield f"doc/modules.dot:1: {header} is missing in the picture of the modules"
+    for name in sorted(named):
+        if not fnmatch.filter(sources, name):
+            yield f"doc/modules.dot:1: there is no {name}"
+
+
 def problems(path):
     for kind in (guard_problems, length_problems, white_space_problems, link_problems):
         for problem in kind(path):
@@ -150,7 +180,7 @@ def main():
     if options.longest:
         print_longest(options.longest)
         return
-    found = [problem for path in files() for problem in problems(path)]
+    found = [problem for path in files() for problem in problems(path)] + list(picture_problems())
     print("\n".join(found), end="\n" if found else "")
     sys.exit(1 if found else 0)
 
