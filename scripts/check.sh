@@ -28,7 +28,7 @@ if [ -x "$supple" ]; then
   if [ "${1:-}" = --fix ]; then scripts/parameter-reference.py "$supple"; fi
   check "parameter reference" scripts/parameter-reference.py "$supple" --check
 fi
-check "lengths, guards, white space, links" scripts/check.py
+check "lengths, guards, white space, links, picture of the modules" scripts/check.py
 check spelling codespell
 check "shell scripts" bash -n scripts/*.sh .ci/run
 

@@ -200,6 +200,8 @@ def colour(grids, arguments):
     """Gives the bodies their colours; the map, and what stands at the colour bar."""
     fields = [values(grid, arguments.field) for grid in grids]
     low, high = arguments.range or (min(map(numpy.min, fields)), max(map(numpy.max, fields)))
+    if not arguments.range and arguments.field in UNITS and 0 < low < 0.1 * high:
+        low = 0    # where sizes begin; the smallest of these instants means nothing
     size, symbol = unit(arguments.field, max(abs(low), abs(high)))
     for grid, field in zip(grids, fields):
         array = numpy_to_vtk(field / size, deep=True)
