@@ -187,6 +187,8 @@ namespace Supple
                      " cells at once were inside out, with a volume ratio down to " +
                      digits(diagnostics.extremes().min_volume_ratio, 3) +
                      " (history.csv): stress and strain there mean nothing.");
+    if (!strains_too_large().empty())
+      list.push_back(strains_too_large());
     if (effort.jumps > 0)
       list.push_back("In " + std::to_string(effort.jumps) +
                      " steps a prescribed motion jumps, or swings to and fro: what it does to the "
@@ -203,6 +205,22 @@ namespace Supple
                      digits(effort.max_relative_residual, 2) + " where " + digits(tolerance, 2) +
                      " was asked for (Solver/Tolerance): round-off of a badly conditioned matrix.");
     return list;
+  }
+
+
+  std::string
+  Simulation::strains_too_large() const
+  {
+    const Extremes &worst = diagnostics.extremes();
+    std::string text;
+    if (worst.min_volume_ratio < 0.5 && worst.most_inverted == 0) // inverted cells are told anyway
+      text = "squeezed to " + digits(worst.min_volume_ratio, 3) + " of their volume";
+    if (worst.max_volume_ratio > 2.)
+      text += std::string(text.empty() ? "" : " and ") + "swollen to " +
+              digits(worst.max_volume_ratio, 3) + " times their volume";
+    return text.empty() ? ""
+                        : "Cells were " + text +
+                            " (history.csv): elasticity of small strains means little there.";
   }
 
 

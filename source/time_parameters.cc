@@ -254,9 +254,10 @@ namespace Supple
       energy_guard,
       {{"off", EnergyGuard::off}, {"warn", EnergyGuard::warn}, {"reject", EnergyGuard::reject}},
       "What is done when the total energy rises by more than the work of a step: nothing, a "
-      "warning "
-      "at the end, or the step is done again, backward euler with rotations that follow, and then "
-      "in halves (fixed steps only); what rises in the smallest of them is told as with warn.");
+      "warning at the end, or the step is done again, backward euler with rotations that follow, "
+      "and then in halves, as often as Retries says (fixed steps only). Where the energy still "
+      "rises in the smallest of them, the guard gives up for the rest of that step, which may "
+      "raise it further, and warns as with warn.");
     add_choice(
       prm,
       "Estimate error",

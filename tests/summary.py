@@ -47,3 +47,15 @@ for coarse, fine in zip(sums, sums[1:]):
 
 warnings = runner.simulate(runner.BAR, {"Probes/Points": "tip: 9, 9, 9; end: 4, 0, 4.01", "Time/Steps": 1}).summary()["warnings"]
 runner.check(len(warnings) == 1 and "Probe tip follows vertex 74" in warnings[0] and "outside of the body" in warnings[0], f"{warnings}")
+
+# Cells far smaller or larger than at rest are told, with their size; where others are inside out that is told instead.
+for settings, told, silent in [
+        ({"Start/Displacement": "0; -0.6*y; 0"}, ["squeezed to 0.4 of their volume"], "swollen"),
+        ({"Start/Displacement": "x; 0.2*y; 0"}, ["swollen to 2.4 times their volume"], "squeezed"),
+        ({"Start/Displacement": "if(y < 6, 1.4, -0.6)*x; 0; 0"}, ["squeezed to 0.4", "and swollen to 2.4"], "inside out"),
+        ({"Start/Displacement": "0; -1.5*y; 0"}, ["inside out"], "squeezed"),
+        ({}, [], "of their volume")]:
+    warnings = runner.simulate(runner.BAR, {"Constraints/Clamped boundaries": "", "Start/Velocity": "0; 0; 0", "Time/Steps": 1,
+                                            **settings}).summary()["warnings"]
+    text = " ".join(warnings)
+    runner.check(all(word in text for word in told) and silent not in text, f"{settings}: {warnings}")

@@ -142,6 +142,11 @@ namespace Supple
     std::vector<std::string>
     warnings_of_motion() const;
 
+    /** A warning where cells are less than half or more than twice as large as at rest, or nothing:
+     * a strain is not small there, however it is measured. */
+    std::string
+    strains_too_large() const;
+
     /** A warning where the time stepping itself drives the motion, or nothing. */
     std::string
     energy_from_nowhere() const;
