@@ -214,13 +214,14 @@ namespace Supple
     const Extremes &worst = diagnostics.extremes();
     std::string text;
     if (worst.min_volume_ratio < 0.5 && worst.most_inverted == 0) // inverted cells are told anyway
-      text = "squeezed to " + digits(worst.min_volume_ratio, 3) + " of their volume";
+      text = "squeezed to " + digits(worst.min_volume_ratio, 3);
     if (worst.max_volume_ratio > 2.)
       text += std::string(text.empty() ? "" : " and ") + "swollen to " +
-              digits(worst.max_volume_ratio, 3) + " times their volume";
+              digits(worst.max_volume_ratio, 3);
     return text.empty() ? ""
                         : "Cells were " + text +
-                            " (history.csv): elasticity of small strains means little there.";
+                            " times their volume at rest (history.csv): elasticity of small "
+                            "strains means little there.";
   }
 
 

@@ -50,11 +50,11 @@ runner.check(len(warnings) == 1 and "Probe tip follows vertex 74" in warnings[0]
 
 # Cells far smaller or larger than at rest are told, with their size; where others are inside out that is told instead.
 for settings, told, silent in [
-        ({"Start/Displacement": "0; -0.6*y; 0"}, ["squeezed to 0.4 of their volume"], "swollen"),
+        ({"Start/Displacement": "0; -0.6*y; 0"}, ["squeezed to 0.4 times their volume"], "swollen"),
         ({"Start/Displacement": "x; 0.2*y; 0"}, ["swollen to 2.4 times their volume"], "squeezed"),
         ({"Start/Displacement": "if(y < 6, 1.4, -0.6)*x; 0; 0"}, ["squeezed to 0.4", "and swollen to 2.4"], "inside out"),
         ({"Start/Displacement": "0; -1.5*y; 0"}, ["inside out"], "squeezed"),
-        ({}, [], "of their volume")]:
+        ({}, [], "their volume")]:
     warnings = runner.simulate(runner.BAR, {"Constraints/Clamped boundaries": "", "Start/Velocity": "0; 0; 0", "Time/Steps": 1,
                                             **settings}).summary()["warnings"]
     text = " ".join(warnings)
