@@ -46,6 +46,7 @@ cases = {"polar": {}, "linear": {"Corotation/Rotation": "none"},
          "moved": {"Motion/Of": "region y == 0", "Motion/Displacement": "free; free; 2*sin(3*t)", "Start/Velocity": "0; 0; 0",
                    "Damping/Stiffness factor": 0.002, "Damping/Mass factor": 0.1},
          "trbdf2": {"Time/Method": "trbdf2", "Time/Step": 0.01, "Time/Newton tolerance": 1e-13},
+         "multigrid": {"Solver/Method": "cg-amg", "Mesh/Box cubes": "4, 8, 4"},
          "static": {"Time/Problem": "static", "Start/Velocity": "0; 0; 0"}}
 for name, case in cases.items():
     settings = {**ALWAYS, **case, "Time/Steps": 40}
@@ -105,9 +106,20 @@ runner.check(file.read_bytes() == good, "the checkpoint was touched")
 file.write_bytes(good[:1000] + b"x" + good[1001:])
 status, error = run("polar", {**ALWAYS, "Time/Steps": 60})
 runner.check(status == 0, f"the one before is whole: {error}")
+runner.check("checkpoint.previous.cbor; checkpoint.cbor is damaged" in error, error)
 for name in ("checkpoint.cbor", "checkpoint.previous.cbor"):
     (folder / "polar" / name).write_bytes(b"supple checkpoint 1\n")
 status, error = run("polar", {**ALWAYS, "Time/Steps": 60})
 runner.check(status == 1 and "damaged" in error, error)
 status, error = run("polar", {**ALWAYS, "Time/Steps": 60, "Checkpoint/Resume": "never"})
 runner.check(status == 0, error)
+
+# Frames may be asked for later.
+settings = {"Checkpoint/Every": 7, "Checkpoint/Resume": "auto", "Time/Steps": 20}
+status, error = run("frames", {**settings, "Output/Frames": "none"})
+runner.check(status == 0 and not (folder / "frames" / "solution.pvd").exists(), error)
+status, error = run("frames", {**settings, "Time/Steps": 40})
+frames = runner.Results(folder / "frames").frame_times()
+times = [row["time"] for row in runner.Results(folder / "frames").table("history.csv")]
+runner.check(status == 0 and len(times) == 41, error)
+runner.check(frames and min(frames) >= times[20] - 1e-9 and abs(max(frames) - times[40]) < 1e-9, f"frames at {frames}")
