@@ -106,7 +106,8 @@ runner.check(file.read_bytes() == good, "the checkpoint was touched")
 file.write_bytes(good[:1000] + b"x" + good[1001:])
 status, error = run("polar", {**ALWAYS, "Time/Steps": 60})
 runner.check(status == 0, f"the one before is whole: {error}")
-runner.check("checkpoint.previous.cbor; checkpoint.cbor is damaged" in error, error)
+warnings = runner.Results(folder / "polar").summary()["warnings"]
+runner.check(any("checkpoint.previous.cbor; checkpoint.cbor is damaged" in text for text in warnings), str(warnings))
 for name in ("checkpoint.cbor", "checkpoint.previous.cbor"):
     (folder / "polar" / name).write_bytes(b"supple checkpoint 1\n")
 status, error = run("polar", {**ALWAYS, "Time/Steps": 60})
@@ -114,12 +115,13 @@ runner.check(status == 1 and "damaged" in error, error)
 status, error = run("polar", {**ALWAYS, "Time/Steps": 60, "Checkpoint/Resume": "never"})
 runner.check(status == 0, error)
 
-# Frames may be asked for later.
+# Frames may be asked for later: they begin where the run is gone on with, at step 14.
 settings = {"Checkpoint/Every": 7, "Checkpoint/Resume": "auto", "Time/Steps": 20}
 status, error = run("frames", {**settings, "Output/Frames": "none"})
 runner.check(status == 0 and not (folder / "frames" / "solution.pvd").exists(), error)
 status, error = run("frames", {**settings, "Time/Steps": 40})
-frames = runner.Results(folder / "frames").frame_times()
+runner.check(status == 0, error)
 times = [row["time"] for row in runner.Results(folder / "frames").table("history.csv")]
-runner.check(status == 0 and len(times) == 41, error)
-runner.check(frames and min(frames) >= times[20] - 1e-9 and abs(max(frames) - times[40]) < 1e-9, f"frames at {frames}")
+frames = runner.Results(folder / "frames").frame_times()
+runner.check(len(times) == 41 and all(a < b for a, b in zip(times, times[1:])), f"rows at {times}")
+runner.check(abs(min(frames) - times[14]) < 1e-9 and abs(max(frames) - times[40]) < 1e-9, f"frames at {frames}")
