@@ -125,3 +125,9 @@ times = [row["time"] for row in runner.Results(folder / "frames").table("history
 frames = runner.Results(folder / "frames").frame_times()
 runner.check(len(times) == 41 and all(a < b for a, b in zip(times, times[1:])), f"rows at {times}")
 runner.check(abs(min(frames) - times[14]) < 1e-9 and abs(max(frames) - times[40]) < 1e-9, f"frames at {frames}")
+for steps, kind in [(50, "none"), (60, "adaptive")]:
+    status, error = run("frames", {**settings, "Time/Steps": steps, "Output/Frames": kind})
+    runner.check(status == 0, error)
+later = runner.Results(folder / "frames").frame_times()
+runner.check(later[0] == frames[0] and later[-1] > frames[-1], f"frames at {later}, before at {frames}")
+runner.check(all(a < b for a, b in zip(later, later[1:])), f"frames at {later}")
