@@ -1,4 +1,5 @@
 #include <supple/error.h>
+#include <supple/line_length.h>
 #include <supple/near_name.h>
 #include <supple/parameter_file.h>
 
@@ -78,67 +79,73 @@ namespace Supple
     }
 
 
-    /** Says more where a name is not known than deal.II, which only says that it is not there:
-     * an unknown entry in full, and which known entry, section or choice is near.
+    /** All entries and sections that are declared. */
+    Lines
+    known_names(const ParameterHandler &prm)
+    {
+      std::ostringstream printed;
+      prm.print_parameters(printed, ParameterHandler::ShortPRM);
+      std::istringstream lines(printed.str());
+      std::string line, without_values;
+      while (std::getline(lines, line)) // values may be too long for regular expressions
+        without_values += line.substr(0, std::min(line.find('='), line.size() - 1) + 1) + "\n";
+      return find_lines("", without_values);
+    }
+
+
+    /** Says more where a name is not known than deal.II, which only says that it is not there: an
+     * unknown entry in full, and which known entry, section or choice is near.
      * @param entry which the message is about: "Section/Entry", or "Section" alone */
     std::string
     with_near_name(const std::string &message,
                    const std::string &entry,
                    const ParameterHandler &prm)
     {
-      std::ostringstream all;
-      prm.print_parameters(all, ParameterHandler::ShortPRM);
-      const Lines known         = find_lines("", all.str());
-      const std::string section = entry.substr(0, entry.find('/'));
       const auto line_end       = std::min(message.find('\n'), message.size());
-      std::string first = message.substr(0, line_end), rest = message.substr(line_end);
+      const std::string first   = message.substr(0, line_end);
+      const std::string section = entry.substr(0, entry.find('/'));
+      const Lines known         = known_names(prm);
+      const auto with           = [&](const std::size_t begin, const std::string &text) {
+        return first.substr(0, begin) + text + message.substr(line_end);
+      };
+      std::vector<std::string> names;
 
-      std::vector<std::string> near;
-      std::string given = entry.substr(std::min(section.size() + 1, entry.size()));
-      std::smatch found;
-      if (first.find("no such subsection") != std::string::npos)
+      const auto no_section = first.find("There is no such subsection");
+      if (no_section != std::string::npos)
         {
-          given = section;
-          first = std::regex_replace(first,
-                                     std::regex("There is no such subsection.*"),
-                                     "there is no subsection " + section);
           for (const auto &[name, place] : known.sections)
-            near.push_back(name);
+            names.push_back(name);
+          return with(no_section,
+                      "there is no subsection " + section + did_you_mean(section, names));
         }
-      else if (first.find("No entry with name") != std::string::npos)
+      const auto no_entry = first.find("No entry with name");
+      if (no_entry != std::string::npos)
         {
-          first = std::regex_replace(first,
-                                     std::regex("No entry with name <.*> was declared in .*"),
-                                     "there is no entry " + entry);
           for (const auto &[name, place] : known.entries)
             if (name.rfind(section + "/", 0) == 0)
-              near.push_back(name.substr(section.size() + 1));
+              names.push_back(name.substr(section.size() + 1));
+          return with(no_entry,
+                      "there is no entry " + entry +
+                        did_you_mean(entry.substr(std::min(section.size() + 1, entry.size())),
+                                     names));
         }
-      else if (std::regex_search(first,
-                                 found,
-                                 std::regex("value *(.*) for the entry .* pattern: one of (.*)$")))
-        {
-          given = found[1];
-          near  = dealii::Utilities::split_string_list(found[2], ',');
-        }
-      else
+      const std::string before = "The entry value", after = " for the entry", choice = "one of ";
+      const auto value = first.find(before), end = first.rfind(after),
+                 choices = first.rfind(choice);
+      if (value == std::string::npos || end == std::string::npos || choices == std::string::npos ||
+          choices < end)
         return message;
-      return first + did_you_mean(given, near) + rest;
+      const auto begin = value + before.size();
+      return with(first.size(),
+                  did_you_mean(dealii::Utilities::trim(first.substr(begin, end - begin)),
+                               dealii::Utilities::split_string_list(
+                                 first.substr(choices + choice.size()), ',')));
     }
 
 
     // Regular expressions call themselves for each letter, with half a kilobyte of the stack: what
     // is too long for them ends the program.
-    constexpr std::size_t longest_line = 4000, longest_joined_line = 12000;
-
-    /** @param place of the line */
-    void
-    require_length(const std::size_t length, const std::size_t longest, const std::string &place)
-    {
-      if (length > longest)
-        throw InputError(place + ": this line has " + std::to_string(length) +
-                         " characters; at most " + std::to_string(longest) + " are read.");
-    }
+    constexpr std::size_t longest_joined_line = 12000;
 
 
     std::string
