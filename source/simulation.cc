@@ -362,7 +362,7 @@ namespace Supple
         if (!finished() && interrupt.requested(communicator))
           {
             progress.clear();
-            if (parameters.checkpoint.wanted())
+            if (parameters.checkpoint.wanted() && !folder.empty())
               write_checkpoint();
             finish("interrupted");
             throw InterruptedError("Interrupted after step " + std::to_string(step) + "." +

@@ -209,6 +209,7 @@ namespace Supple
       {
         Parameters scene         = plan.parameters(run);
         scene.output.report      = false; // the study has one for all
+        scene.checkpoint         = {};    // what goes on lacks the rows before
         const StudyRecord record = runner.record(
           scene, parameters.histories ? folder + "/runs/" + run.folder_name() : std::string());
         measure(row, record);

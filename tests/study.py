@@ -214,6 +214,12 @@ runner.check(status == 1 and "both.prm:7: subsection Time beside Study" in error
 status, _, error = runner.run(runner.BAR, "--set", "Study/Repeats=1")
 runner.check(status == 1 and "Study" in error, error)
 
+# Runs of a study begin anew, whatever the scene says of checkpoints: the second time the numbers are the same.
+for _ in range(2):
+    rows = study("anew", Scene=runner.BAR, Overrides="Time/Steps=4 | Checkpoint/Every=2 | Checkpoint/Resume=auto", Histories="true",
+                 Cases="a []", Columns="begin: first time")
+    runner.check(float(rows[0]["begin"]) == 0, f"{rows}")
+
 # What is wrong with an entry of the command line is its fault, not that of the study; what changes nothing is refused.
 levels = write("levels-of-time", Scene=runner.BAR, Levels="1 [Time/Step=0.07]; 2 [Time/Step = 0.035]", Columns="a: n0.ux", Exact="a: 1")
 cases = write("some-cases", Scene=runner.BAR, Cases="a [Time/Step=0.07]; b []", Columns="a: n0.ux")
