@@ -62,7 +62,7 @@ for entry, known in [("Material/young Modulus", "Young modulus"), ("Material/You
     status, _, error = runner.run(runner.BAR, "--set", f"{entry}=3")
     meant = error.split("did you mean ")[1].split("?")[0] if "did you mean" in error else "None"
     runner.check(status == 1 and meant == (repr(known) if known else "None"), f"{entry}: {error}")
-for value, known in [("bakward euler", "'backward euler'"), ("esdirk6", None), ("explicit", None), ("ID", "'ida'"), ("x", None)]:
+for value, known in [("backwardeuler", "'backward euler'"), ("esdirk6", None), ("explicit", None), ("ID", "'ida'"), ("x", None)]:
     status, _, error = runner.run(runner.BAR, "--set", f"Time/Method={value}")
     runner.check(status == 1 and (f"did you mean {known}?" in error if known else "did you mean" not in error), error)
 with_setting("Materials/Density", 3, "Materials")
