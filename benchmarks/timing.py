@@ -6,6 +6,7 @@
 """
 
 import argparse
+import csv
 import json
 import os
 import pathlib
@@ -27,8 +28,9 @@ def parser(documentation):
     return options
 
 
-def run(scene, settings, program, launcher=()):
-    """summary.json of one run of parameters/SCENE.prm, with the peak memory of the program in MB as "peak_memory"."""
+def run(scene, settings, program, launcher=(), table=None):
+    """summary.json of one run of parameters/SCENE.prm, with the peak memory of the program in MB as "peak_memory", and
+    the rows of one of its CSV files as "table"."""
     with tempfile.TemporaryDirectory() as folder:
         command = [*launcher, program, ROOT / "parameters" / f"{scene}.prm", "--quiet", "--output", folder]
         for entry, value in {**SILENT, **settings}.items():
@@ -42,6 +44,9 @@ def run(scene, settings, program, launcher=()):
         if status != 0:
             raise SystemExit(f"failed: {' '.join(map(str, command))}")
         summary = json.loads((pathlib.Path(folder) / "summary.json").read_text())
+        if table:
+            with open(pathlib.Path(folder) / table) as file:
+                summary["table"] = list(csv.DictReader(file))
         return {**summary, "peak_memory": usage.ru_maxrss / 1024}
 
 

@@ -11,9 +11,6 @@ namespace Supple
 
   namespace
   {
-    constexpr std::array<std::array<unsigned int, 2>, 6> lower_pairs = {
-      {{{1, 0}}, {{2, 0}}, {{2, 1}}, {{3, 0}}, {{3, 1}}, {{3, 2}}}};
-
     using Vector3 = std::array<double, 3>;
 
     Vector3
@@ -408,92 +405,6 @@ namespace Supple
       scatter(batches[b],
               integral(b, batches[b].volume, false, gather(batches[b], force_density)),
               force);
-  }
-
-
-  template <bool axisymmetric>
-  void
-  Cells::add_tangent_of(const std::size_t b,
-                        const double mass_factor,
-                        const double stiffness_factor,
-                        const double rotation_factor,
-                        const double added_bulk,
-                        SymmetricBlockMatrix &A) const
-  {
-    const Batch &batch = batches[b];
-    const Pack lambda  = stiffness_factor * batch.volume * (batch.lambda + added_bulk * batch.mu);
-    const Pack mu      = stiffness_factor * batch.volume * batch.mu;
-    const Pack same    = mass_factor * mass_entry(b, 0, 0);
-    const Pack other   = mass_factor * mass_entry(b, 0, 1);
-
-    const NodalPack h   = rotated_gradients(b);
-    const bool turning  = !rotation_stiffness.empty();
-    const bool swelling = !volume_stiffness.empty();
-    NodalPack t         = h; // of the trace of the strain
-    if constexpr (axisymmetric)
-      for (unsigned int a = 0; a < 3; ++a)
-        t[a][0] += hoops[b].gradient;
-
-    const auto add_block =
-      [&](const unsigned int a, const unsigned int c, const auto &slot, double *values) {
-        Pack diagonal = mu * (h[a][0] * h[c][0] + h[a][1] * h[c][1] + h[a][2] * h[c][2]);
-        if constexpr (axisymmetric)
-          diagonal += mass_factor * mass_entry(b, a, c);
-        else
-          diagonal += a == c ? same : other;
-        std::array<std::array<Pack, 3>, 3> turn, swell;
-        if (turning)
-          turn = rotation_block(b, h, a, c);
-        if (swelling)
-          swell = volume_block(b, a, c);
-        alignas(64) double block[9][n_lanes];
-        for (unsigned int i = 0; i < 3; ++i)
-          for (unsigned int j = 0; j < 3; ++j)
-            {
-              Pack entry = mu * h[c][i] * h[a][j];
-              if constexpr (axisymmetric)
-                entry += lambda * t[a][i] * t[c][j];
-              else
-                entry += lambda * h[a][i] * h[c][j];
-              if (i == j)
-                entry += diagonal;
-              if (turning)
-                entry += rotation_factor * turn[j][i];
-              if (swelling)
-                entry += rotation_factor * swell[j][i];
-              if (axisymmetric && i == 0 && j == 0)
-                entry += 2. * mu * hoops[b].gradient * hoops[b].gradient;
-              entry.copy_to(block[3 * i + j], stdx::vector_aligned);
-            }
-        for (unsigned int lane = 0; lane < n_lanes; ++lane)
-          {
-            double *target = values + 9 * static_cast<std::size_t>(slot[lane]);
-            for (unsigned int k = 0; k < 9; ++k)
-              target[k] += block[k][lane];
-          }
-      };
-
-    for (unsigned int a = 0; a < 4; ++a)
-      add_block(a, a, slots[b].diagonal[a], A.diagonal.data());
-    for (unsigned int p = 0; p < 6; ++p)
-      add_block(lower_pairs[p][0], lower_pairs[p][1], slots[b].lower[p], A.lower.data());
-  }
-
-
-  void
-  Cells::add_tangent(const double mass_factor,
-                     const double stiffness_factor,
-                     const double rotation_factor,
-                     SymmetricBlockMatrix &A,
-                     const double added_bulk) const
-  {
-    for (std::size_t b = 0; b < batches.size(); ++b)
-      if (section.axisymmetric())
-        add_tangent_of<true>(b, mass_factor, stiffness_factor, rotation_factor, added_bulk, A);
-      else
-        add_tangent_of<false>(b, mass_factor, stiffness_factor, rotation_factor, added_bulk, A);
-    if (vertex_mass > 0.)
-      A.add_to_diagonal(mass_factor * vertex_mass);
   }
 
 

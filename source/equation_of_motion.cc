@@ -285,8 +285,8 @@ namespace Supple
     model.body.update_rotation_stiffness(replaced ? Tangent::definite : tangent,
                                          displacement,
                                          model.effort);
-    model.implicit_operator.assemble(gamma);
-    model.solver.prepare(displacement);
+    if (model.implicit_operator.assemble(gamma))
+      model.solver.prepare(displacement);
   }
 
 

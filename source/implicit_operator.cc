@@ -1,6 +1,9 @@
 #include <supple/implicit_operator.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace Supple
 {
@@ -12,6 +15,7 @@ namespace Supple
     , constraints(constraints)
     , damping(parameters.damping)
     , effort(effort)
+    , warp_tolerance(parameters.corotation.warp_tolerance * M_PI / 180.)
     , pattern(make_pattern())
     , A(pattern)
   {
@@ -82,6 +86,13 @@ namespace Supple
     body.cells->add_tangent(factors.mass, factors.stiffness, factors.rotation, matrix, added_bulk);
     if (factors.diagonal != 0.)
       matrix.add_to_diagonal(factors.diagonal);
+    mask(matrix);
+  }
+
+
+  void
+  ImplicitOperator::mask(SymmetricBlockMatrix &matrix) const
+  {
     for (const std::size_t position : masked_diagonal)
       matrix.diagonal[position] = 0.;
     for (const std::size_t position : masked_lower)
@@ -89,15 +100,63 @@ namespace Supple
   }
 
 
-  void
+  bool
   ImplicitOperator::assemble(const double gamma)
   {
-    factors = {1. + gamma * damping.mass_factor,
-               gamma * gamma + gamma * damping.stiffness_factor,
-               gamma * gamma,
-               gamma * damping.viscous};
+    const Factors wanted = {1. + gamma * damping.mass_factor,
+                            gamma * gamma + gamma * damping.stiffness_factor,
+                            gamma * gamma,
+                            gamma * damping.viscous};
+    const bool keeps     = warp_tolerance > 0. && body.cells->tangent_is_frozen();
+    if (keeps && renewable && wanted.mass == factors.mass &&
+        wanted.stiffness == factors.stiffness && wanted.diagonal == factors.diagonal)
+      return renew();
+    factors   = wanted;
+    renewable = keeps;
+    assemble_all();
+    return true;
+  }
+
+
+  void
+  ImplicitOperator::forget()
+  {
+    renewable = false;
+  }
+
+
+  /** A cell on two processes is renewed by both in the same step: they know the same rotations. */
+  bool
+  ImplicitOperator::renew()
+  {
+    const std::size_t here = body.cells->n_turned(warp_tolerance);
+    const std::size_t all  = dealii::Utilities::MPI::sum(here, body.mesh.communicator);
+    if (all == 0)
+      return false;
+    if (2 * all > body.mesh.n_cells)
+      assemble_all(); // to take off and to put on costs more
+    else
+      {
+        const PhaseTimer timer(effort, Phase::assembly);
+        body.cells->renew_tangent(warp_tolerance, factors.stiffness, A);
+        mask(A);
+        ++effort.assemblies;
+        effort.cells_warped += here;
+      }
+    return true;
+  }
+
+
+  void
+  ImplicitOperator::assemble_all()
+  {
+    if (renewable)
+      body.cells->keep_rotations();
+    else
+      body.cells->release_rotations();
     assemble(A, 0.);
     ++effort.assemblies;
+    effort.cells_warped += body.cell_nodes.size();
   }
 
 

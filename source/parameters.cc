@@ -30,7 +30,38 @@ namespace Supple
       "elasticity, "
       "right for small rotations only. polar is the nearest rotation. gram-schmidt is there for "
       "comparison: its force has no energy and depends on the orientation of the axes.");
+    add(prm,
+        "Warp tolerance",
+        warp_tolerance,
+        "degrees",
+        Range::at_least(0),
+        "The matrix of a step keeps the stiffness of cells that have turned by no more than this "
+        "angle since it was taken; forces are always those of the rotations now. Where no cell has "
+        "turned by more, matrix, factor and multigrid stay as they are. 0: all cells, in each "
+        "step (doc/performance.md).");
     prm.leave_subsection();
+  }
+
+
+  void
+  CorotationParameters::check(const Parameters &parameters) const
+  {
+    if (warp_tolerance == 0.)
+      return;
+    const std::string origin   = parameters.origin("Corotation/Warp tolerance");
+    const TimeParameters &time = parameters.time;
+    if (time.problem == TimeParameters::Problem::stationary)
+      throw InputError(origin + ": a static problem takes its matrix anew; it must be 0.");
+    if (parameters.material.cure != MaterialParameters::LockingCure::none)
+      throw InputError(origin +
+                       ": with a volumetric locking cure the matrix is taken anew in each step; "
+                       "it must be 0.");
+    if (rotation == RotationMethod::polar &&
+        time.method != TimeParameters::Method::backward_euler &&
+        time.tangent != TimeParameters::TangentChoice::frozen)
+      throw InputError(origin + ": " + time.method_name() +
+                       " takes the derivatives of the rotations, which change with the stress; it "
+                       "must be 0, or Time/Tangent = frozen.");
   }
 
 
@@ -449,6 +480,7 @@ namespace Supple
 
     mesh.check(*this);
     time.check(*this);
+    corotation.check(*this);
     plane.check(*this);
     if (time.problem == TimeParameters::Problem::stationary && damping.any())
       throw InputError(origin("Time/Problem") +

@@ -300,7 +300,8 @@ namespace Supple
       rest["frames"] = frames->save();
     else if (!earlier_frames.empty())
       rest["frames"] = nlohmann::json::parse(earlier_frames);
-    solver->forget(); // as a run that goes on from here
+    implicit_operator.forget(); // as a run that goes on from here
+    solver->forget();
     const auto vectors = kept_vectors();
     checkpoint.write(step, {vectors.begin(), vectors.end()}, rest);
   }

@@ -24,6 +24,7 @@ namespace Supple
               {"damping_matrix", model.parameters.damping.any()},
               {"rotations_computed", effort.rotations_computed},
               {"assemblies", effort.assemblies},
+              {"cells_warped", effort.cells_warped},
               {"factorizations", effort.factorizations},
               {"multigrid_hierarchies", effort.hierarchies},
               {"parallel",

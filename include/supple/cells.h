@@ -184,6 +184,29 @@ namespace Supple
                 SymmetricBlockMatrix &A,
                 double added_bulk = 0.) const;
 
+    /** From now on add_tangent() takes the rotations of this moment, until they are renewed or
+     * released. */
+    void
+    keep_rotations();
+
+    /** From now on add_tangent() takes the rotations of the forces. */
+    void
+    release_rotations();
+
+    /** Whether K' is free of derivatives of the rotations. */
+    bool
+    tangent_is_frozen() const;
+
+    /** Owned cells that have turned by more than an angle [rad] since keep_rotations() or renewal.
+     */
+    std::size_t
+    n_turned(double angle) const;
+
+    /** Renews the rotations of these cells, and adds what this changes to A = ... +
+     * stiffness_factor K'. */
+    void
+    renew_tangent(double angle, double stiffness_factor, SymmetricBlockMatrix &A);
+
     /** M += the mass matrix. */
     void
     add_mass(SymmetricScalarMatrix &M) const;
@@ -235,6 +258,10 @@ namespace Supple
       Pack gradient; ///< c = 1/(3 r) [1/m], r the centroid's distance from the axis
       std::array<Pack, 4> nodal_radius; ///< of each node, over r; zero for the fourth
     };
+
+    /** Of a cell's nodes, in the order of Slots::lower. */
+    static constexpr std::array<std::array<unsigned int, 2>, 6> lower_pairs = {
+      {{{1, 0}}, {{2, 0}}, {{2, 1}}, {{3, 0}}, {{3, 1}}, {{3, 2}}}};
 
     using NodalPack = std::array<std::array<Pack, 3>, 4>;
 
@@ -289,7 +316,19 @@ namespace Supple
     NodalPack
     mass_product(std::size_t batch, const NodalPack &values) const;
 
+    /** Whether cells have turned by more than an angle with this 8 sin(angle/2)^2. */
+    Pack::mask_type
+    has_turned(std::size_t batch, double bound) const;
+
     /** add_tangent() for the cells of a batch. */
+    void
+    add_tangent_of_batch(std::size_t batch,
+                         double mass_factor,
+                         double stiffness_factor,
+                         double rotation_factor,
+                         double added_bulk,
+                         SymmetricBlockMatrix &A) const;
+
     template <bool axisymmetric>
     void
     add_tangent_of(std::size_t batch,
@@ -346,6 +385,7 @@ namespace Supple
     std::vector<Batch> batches;
     std::vector<Hoop> hoops; ///< of an axisymmetric body, otherwise none
     std::vector<Matrix3<Pack>> rotations;
+    std::vector<Matrix3<Pack>> kept_rotations;     ///< of the tangent; none: those above
     std::vector<Matrix3<Pack>> rotation_stiffness; ///< V R H R^T; empty for frozen rotations
     std::vector<Matrix3<Pack>> volume_stiffness;   ///< V s F; empty but for determinants
     std::vector<Slots> slots;

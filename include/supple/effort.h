@@ -28,6 +28,7 @@ namespace Supple
   {
     unsigned long rotations_computed = 0; ///< cells times updates
     unsigned long assemblies         = 0; ///< of the implicit operator
+    unsigned long cells_warped       = 0; ///< cells whose stiffness was taken anew for it
     unsigned long factorizations     = 0; ///< by a direct solver
     unsigned long hierarchies        = 0; ///< multigrid set-ups
     unsigned long solves             = 0;

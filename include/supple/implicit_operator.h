@@ -27,9 +27,15 @@ namespace Supple
                      const Parameters &parameters,
                      Effort &effort);
 
-    /** A = M + gamma D + gamma^2 K' with the rotations the body has now. */
-    void
+    /** A = M + gamma D + gamma^2 K' with the rotations the body has now, or had less than the warp
+     * tolerance ago. Collective.
+     * @return whether A has changed */
+    bool
     assemble(double gamma);
+
+    /** The next A has the rotations of its moment. */
+    void
+    forget();
 
     /** A = K' with the rotations the body has now. */
     void
@@ -92,6 +98,16 @@ namespace Supple
     void
     assemble(SymmetricBlockMatrix &matrix, double added_bulk) const;
 
+    void
+    assemble_all();
+
+    /** Brings the cells that have turned up to date. @return whether any has */
+    bool
+    renew();
+
+    void
+    mask(SymmetricBlockMatrix &matrix) const;
+
     SymmetricPattern
     make_pattern() const;
 
@@ -99,9 +115,11 @@ namespace Supple
     find_masked_entries();
 
     Effort &effort;
+    const double warp_tolerance; ///< [rad]
     const SymmetricPattern pattern;
     SymmetricBlockMatrix A;
     Factors factors;
+    bool renewable = false; ///< A has kept rotations
     std::unique_ptr<SymmetricScalarMatrix> M;
     std::vector<std::size_t> masked_lower;    ///< positions in A.lower
     std::vector<std::size_t> masked_diagonal; ///< positions in A.diagonal

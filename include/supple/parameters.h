@@ -162,9 +162,14 @@ namespace Supple
   struct CorotationParameters
   {
     RotationMethod rotation = RotationMethod::polar;
+    double warp_tolerance   = 0.; ///< [degrees]
 
     void
     declare(dealii::ParameterHandler &prm);
+
+    /** @throws InputError where a tolerance means nothing */
+    void
+    check(const Parameters &parameters) const;
   };
 
 
