@@ -1,6 +1,7 @@
 #include <supple/patches.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <queue>
 #include <tuple>
@@ -117,8 +118,9 @@ namespace Supple
         for (const unsigned int v : vertices)
           center += mesh.vertices[v] / double(vertices.size());
 
+        const double unit = mesh.vertices[vertices[0]].distance_square(mesh.vertices[vertices[1]]);
         unsigned int best = none;
-        std::tuple<unsigned int, int, unsigned int, double, unsigned int> lowest;
+        std::tuple<unsigned int, int, unsigned int, long, unsigned int> lowest;
         for (const unsigned int member : members)
           for (const unsigned int cell : neighbours[member])
             {
@@ -135,7 +137,9 @@ namespace Supple
                 std::count_if(neighbours[cell].begin(),
                               neighbours[cell].end(),
                               [&](const unsigned int c) { return patch[c] == patch[members[0]]; });
-              const auto key = std::make_tuple(n_new, -n_shared, n_free[cell], distance, cell);
+              // In symmetric meshes many are as far away: round-off is not to choose among them.
+              const long steps = std::lround(1048576. * distance / unit);
+              const auto key   = std::make_tuple(n_new, -n_shared, n_free[cell], steps, cell);
               if (best == none || key < lowest)
                 {
                   best   = cell;
