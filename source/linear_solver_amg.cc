@@ -29,6 +29,9 @@ namespace Supple
     // What the coarse levels cost to compute, in iterations, measured on the bar.
     constexpr double refresh_cost = 12.;
 
+    // Another step changes the matrix at once, and with it what the coarse levels should be.
+    constexpr double largest_change = 2.;
+
 
     /**
      * When coarse levels are to be computed anew. The older they are, the more iterations are
@@ -177,7 +180,7 @@ namespace Supple
       do_prepare(const Vector &displacement) override
       {
         update_matrices();
-        if (built && !rule.due())
+        if (built && !rule.due() && !changed_at_once())
           {
             multigrid.refresh_finest();
             return;
@@ -187,9 +190,20 @@ namespace Supple
           multigrid.refresh(rigid_motions);
         else
           multigrid.build(rigid_motions);
-        built = true;
+        built            = true;
+        factor_of_levels = A.patch_factor();
         rule.refreshed();
         ++effort.hierarchies;
+      }
+
+      /** Whether the step is another one, and the matrix with it. */
+      bool
+      changed_at_once() const
+      {
+        if (A.patch_factor() == factor_of_levels)
+          return false;
+        const double change = multigrid.change();
+        return change > largest_change || change < 1. / largest_change;
       }
 
       /** None where the body is held. */
@@ -338,8 +352,9 @@ namespace Supple
 
       Multigrid multigrid;
       RefreshRule rule;
-      bool built       = false;
-      double reduction = largest_reduction; ///< until it turns out to be too much
+      bool built              = false;
+      double factor_of_levels = 0.; ///< of the stiffness in the matrix of the coarse levels
+      double reduction        = largest_reduction; ///< until it turns out to be too much
       const std::size_t n_owned;
       std::vector<double> rigid_motions;
       NodeVector correction, r, z, p, q;

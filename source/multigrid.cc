@@ -43,16 +43,23 @@ namespace Supple
   }
 
 
-  void
-  Multigrid::set_scale()
+  double
+  Multigrid::mean_diagonal() const
   {
     double sum = 0.;
     for (std::size_t node = 0; node < A.pattern.n_owned; ++node)
       for (unsigned int i = 0; i < 3; ++i)
         sum += A.diagonal[9 * node + 4 * i];
     const double n = 3. * A.pattern.n_owned;
-    factor         = dealii::Utilities::MPI::sum(n, halo.communicator()) /
-             dealii::Utilities::MPI::sum(sum, halo.communicator());
+    return dealii::Utilities::MPI::sum(sum, halo.communicator()) /
+           dealii::Utilities::MPI::sum(n, halo.communicator());
+  }
+
+
+  void
+  Multigrid::set_scale()
+  {
+    factor = 1. / mean_diagonal();
     require_positive(factor > 0., halo);
   }
 
@@ -72,6 +79,7 @@ namespace Supple
   void
   Multigrid::refresh(const std::vector<double> &modes)
   {
+    set_scale();
     refresh_finest();
     coarsening->refresh(view(), factor, modes);
     refresh_coarse_levels(false);

@@ -64,6 +64,14 @@ namespace Supple
       return factor;
     }
 
+    /** By what factor the mean of the diagonal entries has changed since all levels were computed.
+     */
+    double
+    change() const
+    {
+      return factor * mean_diagonal();
+    }
+
     const Halo halo;
 
   private:
@@ -86,6 +94,9 @@ namespace Supple
     {
       return {A.pattern, A.lower.data(), A.diagonal.data()};
     }
+
+    double
+    mean_diagonal() const;
 
     void
     set_scale();
