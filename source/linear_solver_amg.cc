@@ -108,10 +108,11 @@ namespace Supple
     class DoublePrecision
     {
     public:
-      DoublePrecision(Multigrid &multigrid, NodeVector &r, NodeVector &z)
+      DoublePrecision(Multigrid &multigrid, NodeVector &r, NodeVector &z, NodeVector &Az)
         : multigrid(multigrid)
         , r(r)
         , z(z)
+        , Az(Az)
       {
       }
 
@@ -123,7 +124,7 @@ namespace Supple
         for (std::size_t node = 0; node < multigrid.halo.n_owned; ++node)
           for (unsigned int i = 0; i < 3; ++i)
             r[node].lanes[i] = scale * x.local_element(3 * node + i);
-        multigrid.apply(z.data(), r.data());
+        multigrid.apply(z.data(), Az.data(), r.data());
         for (std::size_t node = 0; node < multigrid.halo.n_owned; ++node)
           for (unsigned int i = 0; i < 3; ++i)
             y.local_element(3 * node + i) = size * z[node].lanes[i];
@@ -131,7 +132,7 @@ namespace Supple
 
     private:
       Multigrid &multigrid;
-      NodeVector &r, &z;
+      NodeVector &r, &z, &Az;
     };
 
 
@@ -152,6 +153,7 @@ namespace Supple
         , correction(A.body.n_local)
         , r(A.body.n_local)
         , z(A.body.n_local)
+        , Az(A.body.n_local)
         , p(A.body.n_local)
         , q(A.body.n_local)
         , guesses(!A.body.patches && A.body.n_dofs() <= largest_guess_size)
@@ -225,7 +227,7 @@ namespace Supple
         const double size   = b.l2_norm();
         const double before = A.body.patches ? size : begin(x, b, residual, size);
         const unsigned int n_iterations =
-          A.body.patches ? solve_from_zero(x, b, residual, DoublePrecision(multigrid, r, z))
+          A.body.patches ? solve_from_zero(x, b, residual, DoublePrecision(multigrid, r, z, Az))
                          : solve_in_single_precision(x, b, residual, before);
         if (guesses)
           previous.add(x, b, residual);
@@ -274,7 +276,8 @@ namespace Supple
               }
           }
         if (norm > goal)
-          n_iterations += iterate(x, b, residual, DoublePrecision(multigrid, r, z), n_iterations);
+          n_iterations +=
+            iterate(x, b, residual, DoublePrecision(multigrid, r, z, Az), n_iterations);
         return n_iterations;
       }
 
@@ -309,7 +312,7 @@ namespace Supple
         const double goal_square = factor * factor * sum(product(r, r, n_owned));
         for (unsigned int n = 1;; ++n)
           {
-            multigrid.apply(z.data(), r.data());
+            multigrid.apply(z.data(), Az.data(), r.data());
             const double rho = sum(product(r, z, n_owned));
             // The residual that has just been computed anew is not what the recurrence had: then
             // the direction is made conjugate to the last one by definition.
@@ -321,8 +324,6 @@ namespace Supple
             add_direction(beta);
             last_rho = rho;
 
-            multigrid.halo.update(p.data());
-            multigrid.vmult(q.data(), p.data());
             last_curvature    = sum(product(p, q, n_owned));
             const float alpha = (n > 1 ? rho : sum(product(p, r, n_owned))) / last_curvature;
             for (std::size_t node = 0; node < n_owned; ++node)
@@ -336,12 +337,15 @@ namespace Supple
           }
       }
 
-      /** p = z + beta p */
+      /** p = z + beta p, and q = A p with it */
       void
       add_direction(const float beta)
       {
         for (std::size_t node = 0; node < n_owned; ++node)
-          p[node].lanes = z[node].lanes + beta * p[node].lanes;
+          {
+            p[node].lanes = z[node].lanes + beta * p[node].lanes;
+            q[node].lanes = Az[node].lanes + beta * q[node].lanes;
+          }
       }
 
       double
@@ -357,7 +361,7 @@ namespace Supple
       double reduction        = largest_reduction; ///< until it turns out to be too much
       const std::size_t n_owned;
       std::vector<double> rigid_motions;
-      NodeVector correction, r, z, p, q;
+      NodeVector correction, r, z, Az, p, q;
       const bool guesses;
       PreviousSolutions previous; ///< none without guesses
       double last_rho       = 0.; ///< r.z of the last iteration

@@ -39,6 +39,7 @@ namespace Supple
     , A(A)
     , finest(A.pattern)
     , residual(A.pattern.n_local)
+    , difference(A.pattern.n_local)
   {
   }
 
@@ -181,7 +182,7 @@ namespace Supple
 
 
   void
-  Multigrid::apply(NodeValues<3> *z, const NodeValues<3> *r)
+  Multigrid::apply(NodeValues<3> *z, NodeValues<3> *product, const NodeValues<3> *r)
   {
     finest.forward(z, residual.data(), r);
     if (!halo.single())
@@ -201,6 +202,11 @@ namespace Supple
         halo.update(z);
         finest.subtract_remote(residual.data(), z);
       }
-    finest.backward(z, residual.data());
+    finest.backward(z, residual.data(), r, difference.data(), product);
+    if (!halo.single())
+      {
+        halo.update(difference.data());
+        finest.subtract_remote(product, difference.data());
+      }
   }
 } // namespace Supple

@@ -45,17 +45,10 @@ namespace Supple
     void
     refresh_finest();
 
-    /** z = B r, about the inverse of scale() * A. Ghost values of z come with it, those of r don't
-     * matter. */
+    /** z = B r, about the inverse of scale() * A, and product = scale() * A z, which comes with it.
+     * Ghost values don't matter. */
     void
-    apply(NodeValues<3> *z, const NodeValues<3> *r);
-
-    /** y = scale() * A x in single precision; ghost values of x must be valid. */
-    void
-    vmult(NodeValues<3> *y, const NodeValues<3> *x) const
-    {
-      finest.vmult(y, x);
-    }
+    apply(NodeValues<3> *z, NodeValues<3> *product, const NodeValues<3> *r);
 
     /** One over the mean of the diagonal entries: keeps single precision within its range. */
     double
@@ -116,7 +109,7 @@ namespace Supple
     BlockSmoother<3> finest;
     std::unique_ptr<Coarsening<3>> coarsening;
     std::vector<std::unique_ptr<Level>> levels;
-    std::vector<NodeValues<3>> residual;
+    std::vector<NodeValues<3>> residual, difference; ///< on the finest level
   };
 } // namespace Supple
 
