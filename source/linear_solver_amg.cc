@@ -22,9 +22,9 @@ namespace Supple
     constexpr unsigned int single_precision_iterations = 100;
 
     // How much of the residual a first guess leaves at most, and up to how many degrees of freedom
-    // there is one: of a bar of 98304 tetrahedra it saves nothing.
+    // there is one: of a bar of 786432 tetrahedra it saves nothing.
     constexpr double largest_guess_residual   = 0.5;
-    constexpr unsigned int largest_guess_size = 50000;
+    constexpr unsigned int largest_guess_size = 200000;
 
     // What the coarse levels cost to compute, in iterations, measured on the bar.
     constexpr double refresh_cost = 12.;
