@@ -341,6 +341,12 @@ namespace Supple
       void
       add_direction(const float beta)
       {
+        if (beta == 0.f) // whatever is left of an earlier, perhaps failed solution
+          {
+            std::copy_n(z.begin(), n_owned, p.begin());
+            std::copy_n(Az.begin(), n_owned, q.begin());
+            return;
+          }
         for (std::size_t node = 0; node < n_owned; ++node)
           {
             p[node].lanes = z[node].lanes + beta * p[node].lanes;
