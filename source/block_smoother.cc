@@ -147,7 +147,8 @@ namespace Supple
     Lanes<float, B> sums[B]{};
     for (std::size_t k = pattern.row_start[row]; k < pattern.row_start[row + 1]; ++k)
       {
-        ask_for_next<B, direction>(&lower[B * B * k]);
+        if constexpr (direction != 0)
+          ask_for_next<B, direction>(&lower[B * B * k]);
         const Lanes<float, B> x_j = x[pattern.column[k]].lanes;
         for (unsigned int i = 0; i < B; ++i)
           sums[i] += load<Lanes<float, B>>(&lower[B * (B * k + i)]) * x_j;
@@ -282,6 +283,27 @@ namespace Supple
         const Lanes<float, B> x_i = solve_diagonal(i, b[i].lanes - row_product<-1>(i, x));
         x[i].lanes                = x_i;
         add_transposed(i, -x_i, b);
+      }
+  }
+
+
+  template <unsigned int B>
+  void
+  BlockSmoother<B>::backward(NodeValues<B> *x,
+                             NodeValues<B> *b,
+                             const NodeValues<B> *rhs,
+                             NodeValues<B> *change,
+                             NodeValues<B> *product) const
+  {
+    std::size_t row = pattern.n_owned; // of the product, all that follow are done
+    for (std::size_t i = pattern.n_owned; i-- > 0;)
+      {
+        const Lanes<float, B> x_i = solve_diagonal(i, b[i].lanes - row_product<-1>(i, x));
+        change[i].lanes           = x[i].lanes - x_i;
+        x[i].lanes                = x_i;
+        add_transposed(i, -x_i, b);
+        for (; row > i && first_column(row - 1) >= i; --row)
+          product[row - 1].lanes = rhs[row - 1].lanes - row_product<0>(row - 1, change);
       }
   }
 

@@ -22,12 +22,15 @@ namespace Supple
     constexpr unsigned int single_precision_iterations = 100;
 
     // How much of the residual a first guess leaves at most, and up to how many degrees of freedom
-    // there is one: of a bar of 98304 tetrahedra it saves nothing.
+    // there is one: of a bar of 786432 tetrahedra it saves nothing.
     constexpr double largest_guess_residual   = 0.5;
-    constexpr unsigned int largest_guess_size = 50000;
+    constexpr unsigned int largest_guess_size = 200000;
 
     // What the coarse levels cost to compute, in iterations, measured on the bar.
     constexpr double refresh_cost = 12.;
+
+    // Another step changes the matrix at once, and with it what the coarse levels should be.
+    constexpr double largest_change = 2.;
 
 
     /**
@@ -105,10 +108,11 @@ namespace Supple
     class DoublePrecision
     {
     public:
-      DoublePrecision(Multigrid &multigrid, NodeVector &r, NodeVector &z)
+      DoublePrecision(Multigrid &multigrid, NodeVector &r, NodeVector &z, NodeVector &Az)
         : multigrid(multigrid)
         , r(r)
         , z(z)
+        , Az(Az)
       {
       }
 
@@ -120,7 +124,7 @@ namespace Supple
         for (std::size_t node = 0; node < multigrid.halo.n_owned; ++node)
           for (unsigned int i = 0; i < 3; ++i)
             r[node].lanes[i] = scale * x.local_element(3 * node + i);
-        multigrid.apply(z.data(), r.data());
+        multigrid.apply(z.data(), Az.data(), r.data());
         for (std::size_t node = 0; node < multigrid.halo.n_owned; ++node)
           for (unsigned int i = 0; i < 3; ++i)
             y.local_element(3 * node + i) = size * z[node].lanes[i];
@@ -128,7 +132,7 @@ namespace Supple
 
     private:
       Multigrid &multigrid;
-      NodeVector &r, &z;
+      NodeVector &r, &z, &Az;
     };
 
 
@@ -149,6 +153,7 @@ namespace Supple
         , correction(A.body.n_local)
         , r(A.body.n_local)
         , z(A.body.n_local)
+        , Az(A.body.n_local)
         , p(A.body.n_local)
         , q(A.body.n_local)
         , guesses(!A.body.patches && A.body.n_dofs() <= largest_guess_size)
@@ -177,7 +182,7 @@ namespace Supple
       do_prepare(const Vector &displacement) override
       {
         update_matrices();
-        if (built && !rule.due())
+        if (built && !rule.due() && !changed_at_once())
           {
             multigrid.refresh_finest();
             return;
@@ -187,9 +192,20 @@ namespace Supple
           multigrid.refresh(rigid_motions);
         else
           multigrid.build(rigid_motions);
-        built = true;
+        built            = true;
+        factor_of_levels = A.patch_factor();
         rule.refreshed();
         ++effort.hierarchies;
+      }
+
+      /** Whether the step is another one, and the matrix with it. */
+      bool
+      changed_at_once() const
+      {
+        if (A.patch_factor() == factor_of_levels)
+          return false;
+        const double change = multigrid.change();
+        return change > largest_change || change < 1. / largest_change;
       }
 
       /** None where the body is held. */
@@ -211,7 +227,7 @@ namespace Supple
         const double size   = b.l2_norm();
         const double before = A.body.patches ? size : begin(x, b, residual, size);
         const unsigned int n_iterations =
-          A.body.patches ? solve_from_zero(x, b, residual, DoublePrecision(multigrid, r, z))
+          A.body.patches ? solve_from_zero(x, b, residual, DoublePrecision(multigrid, r, z, Az))
                          : solve_in_single_precision(x, b, residual, before);
         if (guesses)
           previous.add(x, b, residual);
@@ -260,7 +276,8 @@ namespace Supple
               }
           }
         if (norm > goal)
-          n_iterations += iterate(x, b, residual, DoublePrecision(multigrid, r, z), n_iterations);
+          n_iterations +=
+            iterate(x, b, residual, DoublePrecision(multigrid, r, z, Az), n_iterations);
         return n_iterations;
       }
 
@@ -295,7 +312,7 @@ namespace Supple
         const double goal_square = factor * factor * sum(product(r, r, n_owned));
         for (unsigned int n = 1;; ++n)
           {
-            multigrid.apply(z.data(), r.data());
+            multigrid.apply(z.data(), Az.data(), r.data());
             const double rho = sum(product(r, z, n_owned));
             // The residual that has just been computed anew is not what the recurrence had: then
             // the direction is made conjugate to the last one by definition.
@@ -307,8 +324,6 @@ namespace Supple
             add_direction(beta);
             last_rho = rho;
 
-            multigrid.halo.update(p.data());
-            multigrid.vmult(q.data(), p.data());
             last_curvature    = sum(product(p, q, n_owned));
             const float alpha = (n > 1 ? rho : sum(product(p, r, n_owned))) / last_curvature;
             for (std::size_t node = 0; node < n_owned; ++node)
@@ -322,12 +337,21 @@ namespace Supple
           }
       }
 
-      /** p = z + beta p */
+      /** p = z + beta p, and q = A p with it */
       void
       add_direction(const float beta)
       {
+        if (beta == 0.f) // whatever is left of an earlier, perhaps failed solution
+          {
+            std::copy_n(z.begin(), n_owned, p.begin());
+            std::copy_n(Az.begin(), n_owned, q.begin());
+            return;
+          }
         for (std::size_t node = 0; node < n_owned; ++node)
-          p[node].lanes = z[node].lanes + beta * p[node].lanes;
+          {
+            p[node].lanes = z[node].lanes + beta * p[node].lanes;
+            q[node].lanes = Az[node].lanes + beta * q[node].lanes;
+          }
       }
 
       double
@@ -338,11 +362,12 @@ namespace Supple
 
       Multigrid multigrid;
       RefreshRule rule;
-      bool built       = false;
-      double reduction = largest_reduction; ///< until it turns out to be too much
+      bool built              = false;
+      double factor_of_levels = 0.; ///< of the stiffness in the matrix of the coarse levels
+      double reduction        = largest_reduction; ///< until it turns out to be too much
       const std::size_t n_owned;
       std::vector<double> rigid_motions;
-      NodeVector correction, r, z, p, q;
+      NodeVector correction, r, z, Az, p, q;
       const bool guesses;
       PreviousSolutions previous; ///< none without guesses
       double last_rho       = 0.; ///< r.z of the last iteration

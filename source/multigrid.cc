@@ -39,20 +39,28 @@ namespace Supple
     , A(A)
     , finest(A.pattern)
     , residual(A.pattern.n_local)
+    , difference(A.pattern.n_local)
   {
   }
 
 
-  void
-  Multigrid::set_scale()
+  double
+  Multigrid::mean_diagonal() const
   {
     double sum = 0.;
     for (std::size_t node = 0; node < A.pattern.n_owned; ++node)
       for (unsigned int i = 0; i < 3; ++i)
         sum += A.diagonal[9 * node + 4 * i];
     const double n = 3. * A.pattern.n_owned;
-    factor         = dealii::Utilities::MPI::sum(n, halo.communicator()) /
-             dealii::Utilities::MPI::sum(sum, halo.communicator());
+    return dealii::Utilities::MPI::sum(sum, halo.communicator()) /
+           dealii::Utilities::MPI::sum(n, halo.communicator());
+  }
+
+
+  void
+  Multigrid::set_scale()
+  {
+    factor = 1. / mean_diagonal();
     require_positive(factor > 0., halo);
   }
 
@@ -72,6 +80,7 @@ namespace Supple
   void
   Multigrid::refresh(const std::vector<double> &modes)
   {
+    set_scale();
     refresh_finest();
     coarsening->refresh(view(), factor, modes);
     refresh_coarse_levels(false);
@@ -173,7 +182,7 @@ namespace Supple
 
 
   void
-  Multigrid::apply(NodeValues<3> *z, const NodeValues<3> *r)
+  Multigrid::apply(NodeValues<3> *z, NodeValues<3> *product, const NodeValues<3> *r)
   {
     finest.forward(z, residual.data(), r);
     if (!halo.single())
@@ -193,6 +202,11 @@ namespace Supple
         halo.update(z);
         finest.subtract_remote(residual.data(), z);
       }
-    finest.backward(z, residual.data());
+    finest.backward(z, residual.data(), r, difference.data(), product);
+    if (!halo.single())
+      {
+        halo.update(difference.data());
+        finest.subtract_remote(product, difference.data());
+      }
   }
 } // namespace Supple

@@ -28,7 +28,7 @@ namespace
     ImplicitOperator A;
     BlockSmoother<3> smoother;
     Vector displacement, force, x, y;
-    std::vector<NodeValues<3>> z, b, r;
+    std::vector<NodeValues<3>> z, b, r, change, product;
 
     Bar(const std::string &scene, const std::vector<Override> &changes)
       : parameters(Parameters::read(scene, changes))
@@ -40,6 +40,8 @@ namespace
       , z(body.n_local)
       , b(body.n_local)
       , r(body.n_local)
+      , change(body.n_local)
+      , product(body.n_local)
     {
       for (Vector *vector : {&displacement, &force, &x, &y})
         body.initialize(*vector);
@@ -145,6 +147,14 @@ namespace
       bar.r = bar.b;
       bar.smoother.backward(bar.z.data(), bar.r.data());
     });
+    measure("backward sweep with the product",
+            bar.matrix_bytes(sizeof(float)) + 3. * lanes,
+            n,
+            [&] {
+              bar.r = bar.b;
+              bar.smoother.backward(
+                bar.z.data(), bar.r.data(), bar.b.data(), bar.change.data(), bar.product.data());
+            });
   }
 } // namespace
 

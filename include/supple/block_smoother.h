@@ -65,6 +65,19 @@ namespace Supple
     void
     backward(NodeValues<B> *x, NodeValues<B> *b) const;
 
+    /**
+     * The same, and the product A x of what has become of x, which is b - L change but for
+     * couplings to other processes: rows of L are used again while they are still in the cache.
+     * @param rhs    b once more, which is kept
+     * @param change the old x minus the new one
+     */
+    void
+    backward(NodeValues<B> *x,
+             NodeValues<B> *b,
+             const NodeValues<B> *rhs,
+             NodeValues<B> *change,
+             NodeValues<B> *product) const;
+
     /** D^-1 b */
     Lanes<float, B>
     solve_diagonal(std::size_t node, const Lanes<float, B> &b) const;
@@ -83,7 +96,8 @@ namespace Supple
     std::vector<NodeValues<B>> inverse;  ///< D^-1 with what is added to D
 
   private:
-    /** The sum of L_ij x_j over a row, in a sweep that goes on or, with -1, back. */
+    /** The sum of L_ij x_j over a row, in a sweep that goes on or, with -1, back; with 0 the row
+     * has just been used. */
     template <int direction>
     Lanes<float, B>
     row_product(std::size_t row, const NodeValues<B> *x) const;
@@ -91,6 +105,14 @@ namespace Supple
     /** y_j += L_ij^T x_i over a row. */
     void
     add_transposed(std::size_t row, const Lanes<float, B> &x, NodeValues<B> *y) const;
+
+    /** The row itself if it is empty. */
+    std::size_t
+    first_column(const std::size_t row) const
+    {
+      const std::size_t k = pattern.row_start[row];
+      return k < pattern.row_start[row + 1] ? pattern.column[k] : row;
+    }
 
     bool
     set_diagonal(const MatrixView<B> &A, double factor);

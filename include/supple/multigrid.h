@@ -45,23 +45,24 @@ namespace Supple
     void
     refresh_finest();
 
-    /** z = B r, about the inverse of scale() * A. Ghost values of z come with it, those of r don't
-     * matter. */
+    /** z = B r, about the inverse of scale() * A, and product = scale() * A z, which comes with it.
+     * Ghost values don't matter. */
     void
-    apply(NodeValues<3> *z, const NodeValues<3> *r);
-
-    /** y = scale() * A x in single precision; ghost values of x must be valid. */
-    void
-    vmult(NodeValues<3> *y, const NodeValues<3> *x) const
-    {
-      finest.vmult(y, x);
-    }
+    apply(NodeValues<3> *z, NodeValues<3> *product, const NodeValues<3> *r);
 
     /** One over the mean of the diagonal entries: keeps single precision within its range. */
     double
     scale() const
     {
       return factor;
+    }
+
+    /** By what factor the mean of the diagonal entries has changed since all levels were computed.
+     */
+    double
+    change() const
+    {
+      return factor * mean_diagonal();
     }
 
     const Halo halo;
@@ -87,6 +88,9 @@ namespace Supple
       return {A.pattern, A.lower.data(), A.diagonal.data()};
     }
 
+    double
+    mean_diagonal() const;
+
     void
     set_scale();
 
@@ -105,7 +109,7 @@ namespace Supple
     BlockSmoother<3> finest;
     std::unique_ptr<Coarsening<3>> coarsening;
     std::vector<std::unique_ptr<Level>> levels;
-    std::vector<NodeValues<3>> residual;
+    std::vector<NodeValues<3>> residual, difference; ///< on the finest level
   };
 } // namespace Supple
 
