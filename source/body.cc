@@ -197,6 +197,16 @@ namespace Supple
   }
 
 
+  double
+  Body::largest_poisson() const
+  {
+    double poisson = -1.;
+    for (const auto &[id, n_cells] : mesh.materials)
+      poisson = std::max(poisson, material(id).poisson());
+    return poisson;
+  }
+
+
   Point<3>
   Body::position(const unsigned int node) const
   {

@@ -72,7 +72,9 @@ namespace Supple
   std::string
   Measurement::not_finite() const
   {
-    const std::vector<double> values     = row();
+    const std::vector<double> values = row();
+    if (std::all_of(values.begin(), values.end(), [](const double x) { return std::isfinite(x); }))
+      return ""; // as in nearly all steps
     const std::vector<std::string> names = column_names();
     std::string list;
     for (unsigned int i = 0; i < values.size(); ++i)

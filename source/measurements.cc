@@ -1,4 +1,5 @@
 #include <supple/error.h>
+#include <supple/line_length.h>
 #include <supple/measurements.h>
 
 #include <deal.II/base/utilities.h>
@@ -35,11 +36,7 @@ namespace Supple
     std::vector<std::string>
     fields_of(const std::string &line, const std::string &place)
     {
-      constexpr std::size_t longest_line = 4000; // each field is cut off the rest of the line
-
-      if (line.size() > longest_line)
-        throw InputError(place + ": this line has " + std::to_string(line.size()) +
-                         " characters; at most " + std::to_string(longest_line) + " are read.");
+      require_length(line.size(), longest_line, place);
       auto fields = dealii::Utilities::split_string_list(trim(line), ',');
       while (!fields.empty() && fields.back().empty())
         fields.pop_back();

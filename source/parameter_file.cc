@@ -1,4 +1,5 @@
 #include <supple/error.h>
+#include <supple/line_length.h>
 #include <supple/parameter_file.h>
 
 #include <deal.II/base/utilities.h>
@@ -89,16 +90,7 @@ namespace Supple
 
     // Regular expressions call themselves for each letter, with half a kilobyte of the stack: what
     // is too long for them ends the program.
-    constexpr std::size_t longest_line = 4000, longest_joined_line = 12000;
-
-    /** @param place of the line */
-    void
-    require_length(const std::size_t length, const std::size_t longest, const std::string &place)
-    {
-      if (length > longest)
-        throw InputError(place + ": this line has " + std::to_string(length) +
-                         " characters; at most " + std::to_string(longest) + " are read.");
-    }
+    constexpr std::size_t longest_joined_line = 12000;
 
 
     std::string

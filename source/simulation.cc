@@ -264,6 +264,8 @@ namespace Supple
       diagnostics.load(saved.at("diagnostics"));
     if (frames && saved.contains("frames"))
       frames->load(saved.at("frames"));
+    else if (saved.contains("frames"))
+      earlier_frames = saved.at("frames").dump();
     profiles.load(saved.at("profiles"));
   }
 
@@ -283,6 +285,8 @@ namespace Supple
       rest["diagnostics"] = diagnostics.save();
     if (frames)
       rest["frames"] = frames->save();
+    else if (!earlier_frames.empty())
+      rest["frames"] = nlohmann::json::parse(earlier_frames);
     solver->forget(); // as a run that goes on from here
     const auto vectors = kept_vectors();
     checkpoint.write(step, {vectors.begin(), vectors.end()}, rest);

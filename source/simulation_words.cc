@@ -147,9 +147,7 @@ namespace Supple
         "Gram-Schmidt rotations have no elastic energy: 'elastic' is the energy of the same "
         "formula, and "
         "'dissipated' need not grow. They depend on the axes.");
-    double poisson = 0.;
-    for (const auto &[id, n_cells] : mesh.materials)
-      poisson = std::max(poisson, body.material(id).poisson());
+    const double poisson = body.largest_poisson();
     if (poisson > 0.45 && !body.patches && mesh.section.geometry != Geometry::plane_stress)
       {
         std::ostringstream text;

@@ -96,6 +96,11 @@ refused(static, "6 of its six rigid motions are free", "Hold a boundary")
 refused([*static, "--set", "Constraints/Boundaries held along y=3"], "3 of its six rigid motions are free")
 refused([*static, "--set", "Constraints/Clamped region=x == 0 && y == 0 && z == 0"], "3 of its six rigid")
 
+# Starts whose energies are beyond the largest number.
+for entry, values in [("Start/Velocity", ["0; 0; -1e155", "-1e160; 0; 0"]), ("Start/Displacement", ["1e200*x; 0; 0"])]:
+    for value in values:
+        with_setting(entry, value, entry, "too large", "no finite numbers", "[0, 4] x [0, 12] x [0, 4]")
+
 # An output folder that can't be: beneath a regular file, so that it holds for root too.
 (folder / "file").write_text("")
 status, output, error = runner.run(runner.BAR, "--output", folder / "file" / "results")

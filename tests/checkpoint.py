@@ -46,6 +46,7 @@ cases = {"polar": {}, "linear": {"Corotation/Rotation": "none"},
          "moved": {"Motion/Of": "region y == 0", "Motion/Displacement": "free; free; 2*sin(3*t)", "Start/Velocity": "0; 0; 0",
                    "Damping/Stiffness factor": 0.002, "Damping/Mass factor": 0.1},
          "trbdf2": {"Time/Method": "trbdf2", "Time/Step": 0.01, "Time/Newton tolerance": 1e-13},
+         "multigrid": {"Solver/Method": "cg-amg", "Mesh/Box cubes": "4, 8, 4"},
          "static": {"Time/Problem": "static", "Start/Velocity": "0; 0; 0"}}
 for name, case in cases.items():
     settings = {**ALWAYS, **case, "Time/Steps": 40}
@@ -105,9 +106,28 @@ runner.check(file.read_bytes() == good, "the checkpoint was touched")
 file.write_bytes(good[:1000] + b"x" + good[1001:])
 status, error = run("polar", {**ALWAYS, "Time/Steps": 60})
 runner.check(status == 0, f"the one before is whole: {error}")
+warnings = runner.Results(folder / "polar").summary()["warnings"]
+runner.check(any("checkpoint.previous.cbor; checkpoint.cbor is damaged" in text for text in warnings), str(warnings))
 for name in ("checkpoint.cbor", "checkpoint.previous.cbor"):
     (folder / "polar" / name).write_bytes(b"supple checkpoint 1\n")
 status, error = run("polar", {**ALWAYS, "Time/Steps": 60})
 runner.check(status == 1 and "damaged" in error, error)
 status, error = run("polar", {**ALWAYS, "Time/Steps": 60, "Checkpoint/Resume": "never"})
 runner.check(status == 0, error)
+
+# Frames may be asked for later: they begin where the run is gone on with, at step 14.
+settings = {"Checkpoint/Every": 7, "Checkpoint/Resume": "auto", "Time/Steps": 20}
+status, error = run("frames", {**settings, "Output/Frames": "none"})
+runner.check(status == 0 and not (folder / "frames" / "solution.pvd").exists(), error)
+status, error = run("frames", {**settings, "Time/Steps": 40})
+runner.check(status == 0, error)
+times = [row["time"] for row in runner.Results(folder / "frames").table("history.csv")]
+frames = runner.Results(folder / "frames").frame_times()
+runner.check(len(times) == 41 and all(a < b for a, b in zip(times, times[1:])), f"rows at {times}")
+runner.check(abs(min(frames) - times[14]) < 1e-9 and abs(max(frames) - times[40]) < 1e-9, f"frames at {frames}")
+for steps, kind in [(50, "none"), (60, "adaptive")]:
+    status, error = run("frames", {**settings, "Time/Steps": steps, "Output/Frames": kind})
+    runner.check(status == 0, error)
+later = runner.Results(folder / "frames").frame_times()
+runner.check(later[0] == frames[0] and later[-1] > frames[-1], f"frames at {later}, before at {frames}")
+runner.check(all(a < b for a, b in zip(later, later[1:])), f"frames at {later}")

@@ -86,6 +86,10 @@ namespace Supple
     const IsotropicMaterial &
     material(unsigned int id) const;
 
+    /** Of all materials with cells on any process. */
+    double
+    largest_poisson() const;
+
     dealii::Point<3>
     position(unsigned int node) const;
 

@@ -258,6 +258,7 @@ namespace Supple
     std::unique_ptr<CsvFile> probe_history;
     std::unique_ptr<CsvFile> error_history;
     std::unique_ptr<Frames> frames;
+    std::string earlier_frames; ///< JSON of those before a stretch that writes none
     std::unique_ptr<StepDoubling> step_doubling;
     Checkpoint checkpoint;
 
