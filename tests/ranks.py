@@ -43,7 +43,7 @@ runner.check(probes <= 1e-8, f"six processes for six cells differ by {probes}")
 print(f"six processes: probes within {probes:.1e}")
 
 # What a process is told of its part of the mesh: materials, patches, boundaries by expressions, indices of vertices.
-parts = {"Mesh/Layers": 2, "Material/By id": "1: 5e6, 0.49, 1200", "Material/Poisson ratio": 0.49, "Material/Volumetric locking cure": "patches",
+parts = {"Mesh/Layers": "6, 6", "Material/By id": "1: 5e6, 0.49, 1200", "Material/Poisson ratio": 0.49, "Material/Volumetric locking cure": "patches",
          "Material/Mass per vertex": 500, "Mesh/Boundary regions": "7: z > 3.9", "Loads/Traction on": 7,
          "Loads/Traction": "0; 0; -2e4", "Probes/Points": "tip: 2, 0, 2", "Probes/Boundaries": "clamp: 3; top: 7",
          "Solver/Tolerance": 1e-12, "Time/Steps": 10, "Time/Step": 0.02}
