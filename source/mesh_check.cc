@@ -137,11 +137,11 @@ namespace Supple
         if (n > 0)
           report.warnings.push_back(std::to_string(n) + " " + text);
       };
-      const std::string edges  = mesh.dimension == 3 ? "triangle(s)" : "edge(s)";
+      const std::string kind   = mesh.dimension == 3 ? "triangle(s)" : "edge(s)";
       const std::string groups = mesh.dimension == 3 ? "physical surfaces" : "physical curves";
-      warn(inside, edges + " of " + groups + " lie inside the body and are not used.");
-      warn(twice, edges + " belong to two " + groups + "; the first one counts.");
-      warn(strange, edges + " are no face of a cell and are not used.");
+      warn(inside, kind + " of " + groups + " lie inside the body and are not used.");
+      warn(twice, kind + " belong to two " + groups + "; the first one counts.");
+      warn(strange, kind + " are no face of a cell and are not used.");
       return given;
     }
 
