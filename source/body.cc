@@ -279,7 +279,7 @@ namespace Supple
       }
     if (Utilities::MPI::max(n_found, mesh.communicator) == 0)
       throw InputError(origin + ": the body has no such vertex; the indices go from 0 to " +
-                       std::to_string(mesh.report.piece.size() - 1) + ".");
+                       std::to_string(mesh.n_vertices + mesh.report.unused_vertices - 1) + ".");
     return nodes;
   }
 

@@ -79,7 +79,7 @@ namespace Supple
           continue;
         held_owned.push_back(dof);
         if (!by_nature)
-          held_in[body.mesh.report.piece[body.serial_vertex[dof / 3]]] = 1;
+          held_in[body.mesh.parts->pieces[dof / 3]] = 1;
         n_counted += !(body.mesh.section.plane() && dof % 3 == 2);
       }
     n_held = Utilities::MPI::sum(n_counted, body.mesh.communicator);

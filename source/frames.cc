@@ -200,7 +200,7 @@ namespace Supple
     for (unsigned int r = 0; r < n_ranks; ++r)
       pieces.push_back(n_ranks == 1 ? name + ".vtu" : name + "." + std::to_string(r) + ".vtu");
 
-    const auto [part, record] = body.mesh.parts->draw(drawing, pieces);
+    const auto [part, record] = draw(*body.mesh.parts, drawing, pieces);
     write_whole_file(folder + "/solution/" + pieces[rank], part);
     if (n_ranks > 1)
       {

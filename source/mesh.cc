@@ -2,15 +2,22 @@
 
 #include <supple/error.h>
 #include <supple/expression.h>
+#include <supple/first_process.h>
+#include <supple/partition.h>
 #include <supple/patches.h>
 #include <supple/plane_check.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
+
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/string.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
+#include <utility>
 
 namespace Supple
 {
@@ -170,6 +177,23 @@ namespace Supple
   Mesh::Mesh(const Parameters &parameters, const MPI_Comm communicator)
     : communicator(communicator)
   {
+    SerialMesh whole;
+    std::vector<unsigned int> owner;
+    on_first_process(communicator, [&] {
+      whole = make_whole(parameters);
+      owner = partition(whole, Utilities::MPI::n_mpi_processes(communicator));
+    });
+    share();
+    parts = std::make_unique<DistributedMesh>(
+      distribute(std::move(whole), std::move(owner), communicator), communicator);
+    if (parts->dimension == 2)
+      section = parameters.plane.section;
+  }
+
+
+  SerialMesh
+  Mesh::make_whole(const Parameters &parameters)
+  {
     SerialMesh mesh = make_serial_mesh(parameters);
     if (mesh.dimension == 2)
       section = parameters.plane.section;
@@ -191,7 +215,7 @@ namespace Supple
                            "none.");
         mesh.patches = make_patches(mesh);
       }
-    parts = DistributedMesh::create(mesh, communicator);
+    return mesh;
   }
 
 
@@ -201,7 +225,6 @@ namespace Supple
     n_cells      = mesh.cells.size();
     n_vertices   = mesh.vertices.size() - report.unused_vertices;
     bounding_box = box_around(mesh);
-    volume       = 0.;
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
       {
         volume += volume_of(mesh, c, section);
@@ -209,6 +232,20 @@ namespace Supple
       }
     for (const auto &face : mesh.boundary)
       ++boundaries[face.boundary_id];
+  }
+
+
+  void
+  Mesh::share()
+  {
+    const auto share = [&](auto &value) { value = Utilities::MPI::broadcast(communicator, value); };
+    share(n_cells);
+    share(n_vertices);
+    share(volume);
+    share(bounding_box);
+    share(boundaries);
+    share(materials);
+    share(report);
   }
 
 

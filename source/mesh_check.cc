@@ -7,7 +7,6 @@
 #include <map>
 #include <numeric>
 #include <sstream>
-#include <unordered_map>
 
 namespace Supple
 {
@@ -19,37 +18,12 @@ namespace Supple
     using Face = std::array<unsigned int, 3>;
 
     constexpr unsigned int nothing = dealii::numbers::invalid_unsigned_int;
-    constexpr Face no_face         = {{nothing, nothing, nothing}};
-
-    struct FaceHash
-    {
-      std::size_t
-      operator()(const Face &face) const
-      {
-        return (face[0] * std::size_t(73856093)) ^ (face[1] * std::size_t(19349663)) ^
-               (face[2] * std::size_t(83492791));
-      }
-    };
-
 
     /** An edge has nothing in the third place. */
     Face
     sorted(Face face)
     {
       std::sort(face.begin(), face.end());
-      return face;
-    }
-
-
-    /** The face of a cell opposite to one of its vertices. */
-    Face
-    face_of(const SerialMesh &mesh, const std::size_t cell, const unsigned int opposite)
-    {
-      Face face        = no_face;
-      unsigned int end = 0;
-      for (unsigned int a = 0; a <= mesh.dimension; ++a)
-        if (a != opposite)
-          face[end++] = mesh.cells[cell][a];
       return face;
     }
 
@@ -110,27 +84,51 @@ namespace Supple
     }
 
 
-    /** Sorts out which faces are the boundary and what id each has. */
-    void
-    check_faces(SerialMesh &mesh, const std::string &origin, MeshReport &report)
+    /** Faces that one cell alone has.
+     * @throws InputError where a face has more than two */
+    std::vector<SerialMesh::CellFace>
+    outer_faces(const SerialMesh &mesh,
+                const std::vector<SerialMesh::CellFace> &faces,
+                const std::string &origin)
     {
-      std::unordered_map<Face, unsigned int, FaceHash> n_cells;
-      n_cells.reserve(3 * mesh.cells.size());
-      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-        for (unsigned int opposite = 0; opposite <= mesh.dimension; ++opposite)
-          if (++n_cells[sorted(face_of(mesh, c, opposite))] > 2)
-            throw InputError(origin + ": a face has three cells or more; one of them is " +
-                             place(mesh, c) + ". Cells overlap there, or are given twice.");
+      std::vector<SerialMesh::CellFace> outer;
+      unsigned int third_cell = nothing;
+      for (std::size_t i = 0, end = 0; i < faces.size(); i = end)
+        {
+          while (end < faces.size() && faces[end].vertices == faces[i].vertices)
+            ++end;
+          if (end - i == 1)
+            outer.push_back(faces[i]);
+          else if (end - i > 2)
+            third_cell = std::min(third_cell, faces[i + 2].cell);
+        }
+      if (third_cell != nothing)
+        throw InputError(origin + ": a face has three cells or more; one of them is " +
+                         place(mesh, third_cell) + ". Cells overlap there, or are given twice.");
+      return outer;
+    }
 
+
+    /** What the user says of faces, those of the surface alone; the rest gives warnings. */
+    std::map<Face, unsigned int>
+    given_ids(const SerialMesh &mesh,
+              const std::vector<SerialMesh::CellFace> &faces,
+              MeshReport &report)
+    {
       std::map<Face, unsigned int> given;
       unsigned int inside = 0, twice = 0, strange = 0;
       for (const auto &face : mesh.boundary)
         {
           const Face key   = sorted(face.vertices);
-          const auto found = n_cells.find(key);
-          if (found == n_cells.end())
+          const auto found = std::lower_bound(faces.begin(),
+                                              faces.end(),
+                                              key,
+                                              [](const SerialMesh::CellFace &a, const Face &b) {
+                                                return a.vertices < b;
+                                              });
+          if (found == faces.end() || found->vertices != key)
             ++strange;
-          else if (found->second == 2)
+          else if (found + 1 != faces.end() && (found + 1)->vertices == key)
             ++inside;
           else if (!given.emplace(key, face.boundary_id).second && given[key] != face.boundary_id)
             ++twice;
@@ -139,24 +137,33 @@ namespace Supple
         if (n > 0)
           report.warnings.push_back(std::to_string(n) + " " + text);
       };
-      const std::string faces  = mesh.dimension == 3 ? "triangle(s)" : "edge(s)";
+      const std::string kind   = mesh.dimension == 3 ? "triangle(s)" : "edge(s)";
       const std::string groups = mesh.dimension == 3 ? "physical surfaces" : "physical curves";
-      warn(inside, faces + " of " + groups + " lie inside the body and are not used.");
-      warn(twice, faces + " belong to two " + groups + "; the first one counts.");
-      warn(strange, faces + " are no face of a cell and are not used.");
+      warn(inside, kind + " of " + groups + " lie inside the body and are not used.");
+      warn(twice, kind + " belong to two " + groups + "; the first one counts.");
+      warn(strange, kind + " are no face of a cell and are not used.");
+      return given;
+    }
 
+
+    /** Sorts out which faces are the boundary and what id each has. */
+    void
+    check_faces(SerialMesh &mesh, const std::string &origin, MeshReport &report)
+    {
+      const std::vector<SerialMesh::CellFace> faces = mesh.sorted_faces();
+      std::vector<SerialMesh::CellFace> outer       = outer_faces(mesh, faces, origin);
+      const std::map<Face, unsigned int> given      = given_ids(mesh, faces, report);
+
+      std::stable_sort(outer.begin(), outer.end(), [](const auto &a, const auto &b) {
+        return a.cell < b.cell;
+      });
       mesh.boundary.clear();
-      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-        for (unsigned int opposite = 0; opposite <= mesh.dimension; ++opposite)
-          {
-            const Face face = face_of(mesh, c, opposite);
-            const Face key  = sorted(face);
-            if (n_cells[key] == 1)
-              {
-                const auto found = given.find(key);
-                mesh.boundary.push_back({face, found == given.end() ? 0 : found->second});
-              }
-          }
+      for (const SerialMesh::CellFace &face : outer)
+        {
+          const auto found = given.find(face.vertices);
+          mesh.boundary.push_back(
+            {face.vertices, found == given.end() ? 0 : found->second, face.cell});
+        }
     }
 
 
@@ -167,7 +174,7 @@ namespace Supple
       std::vector<std::pair<Point<3>, Point<3>>> corners(n_pieces);
       for (std::size_t c = 0; c < mesh.cells.size(); ++c)
         {
-          const unsigned int piece = report.piece[mesh.cells[c][0]];
+          const unsigned int piece = mesh.pieces[mesh.cells[c][0]];
           auto &[low, high]        = corners[piece];
           if (report.pieces[piece].n_cells++ == 0)
             low = high = mesh.vertices[mesh.cells[c][0]];
@@ -184,7 +191,7 @@ namespace Supple
 
 
     void
-    find_pieces(const SerialMesh &mesh, MeshReport &report)
+    find_pieces(SerialMesh &mesh, MeshReport &report)
     {
       std::vector<unsigned int> root(mesh.vertices.size());
       std::iota(root.begin(), root.end(), 0u);
@@ -202,15 +209,15 @@ namespace Supple
           }
 
       std::map<unsigned int, unsigned int> number;
-      report.piece.resize(mesh.vertices.size());
+      mesh.pieces.resize(mesh.vertices.size());
       for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
         if (used[v])
-          report.piece[v] = number.emplace(find(v), number.size()).first->second;
+          mesh.pieces[v] = number.emplace(find(v), number.size()).first->second;
         else
           ++report.unused_vertices;
       for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
         if (!used[v])
-          report.piece[v] = number.size();
+          mesh.pieces[v] = number.size();
       measure_pieces(mesh, number.size(), report);
     }
 
@@ -225,7 +232,7 @@ namespace Supple
                           piece.box.get_boundary_points().second));
       std::vector<std::array<long long, 3>> places;
       for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
-        if (report.piece[v] < report.pieces.size())
+        if (mesh.pieces[v] < report.pieces.size())
           {
             places.emplace_back();
             for (unsigned int d = 0; d < 3; ++d)

@@ -7,8 +7,6 @@
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
-#include <boost/serialization/array.hpp>
-#include <boost/serialization/vector.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,25 +16,6 @@
 #include <map>
 #include <numeric>
 #include <sstream>
-
-namespace boost::serialization
-{
-  template <typename Archive>
-  void
-  serialize(Archive &archive, Supple::SerialMesh::BoundaryFace &face, const unsigned int)
-  {
-    archive &face.vertices &face.boundary_id;
-  }
-
-
-  template <typename Archive>
-  void
-  serialize(Archive &archive, Supple::SerialMesh &mesh, const unsigned int)
-  {
-    archive &mesh.dimension &mesh.vertices &mesh.cells &mesh.materials &mesh.boundary;
-  }
-} // namespace boost::serialization
-
 
 namespace Supple
 {

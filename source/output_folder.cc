@@ -1,8 +1,7 @@
 #include <supple/output_folder.h>
 
 #include <supple/error.h>
-
-#include <deal.II/base/mpi.h>
+#include <supple/first_process.h>
 
 namespace Supple
 {
@@ -11,23 +10,20 @@ namespace Supple
                         const MPI_Comm communicator,
                         const std::function<void()> &make)
   {
-    std::string problem;
-    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+    on_first_process(communicator, [&] {
       try
         {
           make();
         }
-      catch (const InputError &error)
+      catch (const InputError &)
         {
-          problem = error.what();
+          throw;
         }
       catch (const std::exception &exception)
         {
-          problem = "The output folder " + folder + " can't be written (" + exception.what() +
-                    "). Name another one with --output.";
+          throw InputError("The output folder " + folder + " can't be written (" +
+                           exception.what() + "). Name another one with --output.");
         }
-    problem = dealii::Utilities::MPI::broadcast(communicator, problem);
-    if (!problem.empty())
-      throw InputError(problem);
+    });
   }
 } // namespace Supple

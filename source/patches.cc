@@ -16,27 +16,7 @@ namespace Supple
     std::vector<std::vector<unsigned int>>
     find_neighbours(const SerialMesh &mesh)
     {
-      struct Face
-      {
-        std::array<unsigned int, 3> vertices;
-        unsigned int cell;
-      };
-      std::vector<Face> faces;
-      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-        for (unsigned int left_out = 0; left_out <= mesh.dimension; ++left_out)
-          {
-            Face face{{{none, none, none}}, c};
-            unsigned int n = 0;
-            for (unsigned int a = 0; a <= mesh.dimension; ++a)
-              if (a != left_out)
-                face.vertices[n++] = mesh.cells[c][a];
-            std::sort(face.vertices.begin(), face.vertices.end());
-            faces.push_back(face);
-          }
-      std::sort(faces.begin(), faces.end(), [](const Face &a, const Face &b) {
-        return std::tie(a.vertices, a.cell) < std::tie(b.vertices, b.cell);
-      });
-
+      const std::vector<SerialMesh::CellFace> faces = mesh.sorted_faces();
       std::vector<std::vector<unsigned int>> neighbours(mesh.cells.size());
       for (std::size_t k = 1; k < faces.size(); ++k)
         {

@@ -155,3 +155,17 @@ damaged[1414:1419] = b"-9999"
 for ranks in (1, 2):
     status, _, error = runner.run("--check", scene, "--set", "Mesh/File=damaged.unv", ranks=ranks)
     runner.check(status == 0 or status == 1 and error.count("Mesh/File = damaged.unv: ") == 1, f"exit status {status}: {error}")
+
+# The first process reads and checks a mesh; all know what it found, and its refusals are told once.
+apart = [(x + 3, y, z) for x, y, z in VERTICES]
+write("found.msh", vertices=VERTICES + apart + [(9, 9, 9)], cells=[(0, 2, 1, 3), CELLS[1]] + [tuple(v + 5 for v in cell) for cell in CELLS],
+      surface=[(5, (0, 1, 2)), (6, (1, 2, 3))], groups=(1, 2, 3, 3))
+status, alone, error = check("found.msh")
+runner.check(status == 0 and "2 pieces" in alone + error and "inverted" in alone + error, alone + error)
+status, together, error = runner.run("--check", scene, "--set", "Mesh/File=found.msh", ranks=2)
+facts, shared = ([line for line in text.splitlines() if "process" not in line and "solver" not in line] for text in (alone, together))
+runner.check(status == 0 and facts == shared, f"one process:\n{alone}two:\n{together}{error}")
+write("flat.msh", vertices=VERTICES[:3] + [(1, 1, 0), (0, 0, 2)])
+for name, words in [("flat.msh", "are flat"), ("nowhere.msh", "no such file")]:
+    status, _, error = runner.run("--check", scene, "--set", f"Mesh/File={name}", ranks=2)
+    runner.check(status == 1 and error.count(words) == 1, f"{name} on two processes: exit status {status}: {error}")

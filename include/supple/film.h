@@ -2,6 +2,7 @@
 #define supple_film_h
 
 #include <supple/body.h>
+#include <supple/drawing.h>
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -12,20 +12,21 @@
 
 namespace Supple
 {
-  /** The mesh of the body at rest, each cell on one process. */
+  /** The mesh of the body at rest, each cell on one process. The first process alone has the whole
+   * of it, while it is made, checked and cut into parts. */
   class Mesh
   {
   public:
-    /** @throws InputError */
+    /** Collective. @throws InputError on all processes */
     Mesh(const Parameters &parameters, MPI_Comm communicator);
 
     const MPI_Comm communicator;
     Section section; ///< solid, or what stands behind the triangles of a plane body
     std::unique_ptr<DistributedMesh> parts;
 
-    unsigned int n_cells;                            ///< on all processes
-    unsigned int n_vertices;                         ///< on all processes
-    double volume;                                   ///< [m^3]
+    unsigned int n_cells    = 0;                     ///< on all processes
+    unsigned int n_vertices = 0;                     ///< on all processes
+    double volume           = 0.;                    ///< [m^3]
     dealii::BoundingBox<3> bounding_box;             ///< [m]
     std::map<unsigned int, unsigned int> boundaries; ///< boundary id -> number of its faces
     std::map<unsigned int, unsigned int> materials;  ///< material id -> number of its cells
@@ -44,8 +45,17 @@ namespace Supple
     extent() const;
 
   private:
+    /** On the first process: generated or read, checked and measured, with its patches.
+     * @throws InputError */
+    SerialMesh
+    make_whole(const Parameters &parameters);
+
     void
     measure(const SerialMesh &mesh);
+
+    /** Tells all processes what the first one knows of the whole mesh. */
+    void
+    share();
   };
 } // namespace Supple
 

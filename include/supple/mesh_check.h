@@ -26,17 +26,32 @@ namespace Supple
     {
       unsigned int n_cells = 0;
       dealii::BoundingBox<3> box;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &n_cells &box;
+      }
     };
     std::vector<Piece> pieces;
-    std::vector<unsigned int> piece; ///< of each vertex; pieces.size() for an unused one
 
     std::vector<std::string> warnings; ///< what the user should know, in sentences
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &repaired &slivers &unused_vertices &double_vertices;
+      archive &worst_quality &worst_cell &worst_position &pieces &warnings;
+    }
   };
 
 
   /**
    * Looks a mesh through and mends what can be mended: negative cells are reoriented, and the
-   * boundary gets each face with one cell (id 0 where none was given).
+   * boundary gets each face with one cell (id 0 where none was given), cell by cell. Each vertex
+   * gets the number of its piece of the body; one that is in no cell gets the number of pieces.
    * @throws InputError beginning with @p origin for flat cells, vertices that do not exist, and
    * faces with more than two cells
    */

@@ -6,14 +6,17 @@
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/point.h>
 
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/vector.hpp>
+
 #include <array>
 #include <string>
 #include <vector>
 
 namespace Supple
 {
-  /** A mesh of tetrahedra, or of triangles in the plane z = 0, as plain lists, the same on every
-   * process. */
+  /** A mesh of tetrahedra, or of triangles in the plane z = 0, as plain lists: a whole one, which
+   * the first process alone has, or a part of it. */
   struct SerialMesh
   {
     /** A triangle, or an edge of a triangle. */
@@ -21,6 +24,22 @@ namespace Supple
     {
       std::array<unsigned int, 3> vertices; ///< of which the first `dimension` count
       unsigned int boundary_id;
+      unsigned int cell = 0; ///< whose face it is, once the mesh is checked
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &vertices &boundary_id &cell;
+      }
+    };
+
+
+    /** A face of a cell by itself, its vertices ascending; an edge has none in the third place. */
+    struct CellFace
+    {
+      std::array<unsigned int, 3> vertices;
+      unsigned int cell;
     };
 
     unsigned int dimension = 3;                     ///< of the cells: 3 tetrahedra, 2 triangles
@@ -28,6 +47,7 @@ namespace Supple
     std::vector<std::array<unsigned int, 4>> cells; ///< of which the first `dimension` + 1 count
     std::vector<unsigned int> materials;            ///< of the cells
     std::vector<unsigned int> patches;              ///< of the cells, or none; see make_patches()
+    std::vector<unsigned int> pieces;               ///< of the vertices; see check_mesh()
     std::vector<BoundaryFace> boundary;
 
     dealii::ArrayView<const unsigned int>
@@ -46,6 +66,18 @@ namespace Supple
      * should be. */
     double
     volume(std::size_t cell) const;
+
+    /** All faces of all cells, sorted by their vertices, then by cells: a face that two cells share
+     * stands there twice in a row. */
+    std::vector<CellFace>
+    sorted_faces() const;
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &dimension &vertices &cells &materials &patches &pieces &boundary;
+    }
   };
 
 
