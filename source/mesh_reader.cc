@@ -23,6 +23,20 @@ namespace Supple
   {
     constexpr int gmsh_line = 1, gmsh_triangle = 2, gmsh_tetrahedron = 4;
 
+    /** Gmsh 4.13 loses a byte where binary VTK begins, and reads none of it; 4.8 does. */
+    std::string
+    remedy(const std::string &file)
+    {
+      std::ifstream stream(file);
+      std::string version, title, kind;
+      std::getline(stream, version);
+      std::getline(stream, title);
+      std::getline(stream, kind);
+      const bool binary = version.rfind("# vtk", 0) == 0 && kind.rfind("BINARY", 0) == 0;
+      return binary ? ". Not every version reads binary VTK: write it as text, or as .msh" : "";
+    }
+
+
     /** Gmsh's library is a global thing: it is there while one of these lives. */
     class GmshSession
     {
@@ -40,7 +54,7 @@ namespace Supple
           {
             const std::string reason = last_complaint();
             gmsh::finalize();
-            throw InputError("Gmsh can't read it" + reason);
+            throw InputError("Gmsh can't read it" + reason + remedy(file));
           }
       }
 

@@ -110,7 +110,9 @@ namespace Supple
       };
       std::vector<std::string> names;
 
-      const auto no_section = first.find("There is no such subsection");
+      // The words of deal.II 9.4 and of 9.6.
+      const auto no_section = std::min(first.find("There is no such subsection"),
+                                       first.find("You are trying to enter a subsection"));
       if (no_section != std::string::npos)
         {
           for (const auto &[name, place] : known.sections)

@@ -158,7 +158,6 @@ main()
   write_and_read("four.msh", 4.1, false);
   write_and_read("four-binary.msh", 4.1, true);
   write_and_read("legacy.vtk", 0., false);
-  write_and_read("legacy-binary.vtk", 0., true);
   write_and_read("ideas.unv", 0., false);
   write_and_read("medit.mesh", 0., false);
   write_and_read("nastran.bdf", 0., false);

@@ -100,6 +100,13 @@ write("order.msh", vertices=[(0, 0, 1), (0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 
 for vertex, place in enumerate(["(0, 0, 1)", "(0, 0, 0)", "(1, 0, 0)", "(0, 1, 0)", "(1, 1, 1)"]):
     accepted("order.msh", f"vertex {vertex} at {place}", settings=[f"Probes/Points=a: vertex {vertex}"])
 
+# Binary VTK, which not every version of Gmsh reads.
+binary = runner.ROOT / "tests" / "data" / "meshes" / "legacy-binary.vtk"
+if check(binary)[0] == 0:
+    accepted(binary, "12 tetrahedra, 12 vertices", "[0, 2] x [0, 1] x [0, 1] m")
+else:
+    refused(binary, "Not every version reads binary VTK", "write it as text")
+
 # A text that is no mesh is not run as one of Gmsh's scripts.
 (folder / "script.msh").write_text(f'SystemCall "touch {folder}/was-run";\n')
 refused("script.msh", "not a mesh that Gmsh has written", "$MeshFormat")
