@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the tables and pictures of doc/extremes.md: the matrix of extremes three times (four minutes) and three strips.
+# Makes the tables and pictures of doc/extremes.md: the matrix of extremes three times (two minutes) and three strips.
 # SUPPLE=path takes another executable instead of building one. doc/extremes.md sums the tables up by hand.
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 

@@ -115,7 +115,8 @@ namespace Supple
     for (std::uint32_t node = n_owned; node < n_local; ++node)
       {
         std::vector<std::uint32_t> row(longest_row);
-        std::memcpy(row.data(), ghost_records.data() + node * size, size);
+        if (size > 0) // somewhere there is a row
+          std::memcpy(row.data(), ghost_records.data() + node * size, size);
         std::copy_if(row.begin(), row.end(), std::back_inserter(column), [](const auto a) {
           return a != no_aggregate;
         });

@@ -183,9 +183,10 @@ namespace Supple
     const std::size_t entry_size = 6 * B * sizeof(std::int16_t);
     const auto for_rows          = [&](std::uint32_t begin, std::uint32_t end, const auto &action) {
       for (std::uint32_t node = begin; node < end; ++node)
-        action(ghost_records.data() + node * longest_row * entry_size,
-               values.data() + 6 * B * std::size_t(row_start[node]),
-               (row_start[node + 1] - row_start[node]) * entry_size);
+        if (row_start[node + 1] > row_start[node])
+          action(ghost_records.data() + node * longest_row * entry_size,
+                 values.data() + 6 * B * std::size_t(row_start[node]),
+                 (row_start[node + 1] - row_start[node]) * entry_size);
     };
     for_rows(0,
              fine.pattern.n_owned,

@@ -21,7 +21,7 @@ namespace Supple
   void
   Halo::update(char *nodal, const std::size_t size) const
   {
-    if (single())
+    if (single() || size == 0)
       return;
     if (buffer.size() < sent.size() * size)
       buffer.resize(sent.size() * size);
