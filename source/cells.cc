@@ -296,27 +296,31 @@ namespace Supple
     if (rotations.empty())
       resize_in_huge_pages(rotations, batches.size());
     if (section.plane())
-      for (std::size_t b = 0; b < batches.size(); ++b)
+      for_batches([&](const std::size_t b) {
         rotations[b] = rotation_in_plane(method, deformation_gradient(b, displacement));
+      });
     else
-      for (std::size_t b = 0; b < batches.size(); ++b)
+      for_batches([&](const std::size_t b) {
         rotations[b] = rotation(method, deformation_gradient(b, displacement));
+      });
   }
 
 
   void
   Cells::add_internal_force(const double *displacement, double *force) const
   {
-    for (std::size_t b = 0; b < batches.size(); ++b)
+    for_batches([&](const std::size_t b) {
       add_stress_divergence(b, strain(b, deformation_gradient(b, displacement)), force);
+    });
   }
 
 
   void
   Cells::add_stiffness_product(const double *w, double *y) const
   {
-    for (std::size_t b = 0; b < batches.size(); ++b)
+    for_batches([&](const std::size_t b) {
       add_stress_divergence(b, rotated_back(b, gradient(b, gather(batches[b], w))), y);
+    });
   }
 
 

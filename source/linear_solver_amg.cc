@@ -21,10 +21,8 @@ namespace Supple
     // It does not come forward if it needs more iterations for that.
     constexpr unsigned int single_precision_iterations = 100;
 
-    // How much of the residual a first guess leaves at most, and up to how many degrees of freedom
-    // there is one: of a bar of 786432 tetrahedra it saves nothing.
-    constexpr double largest_guess_residual   = 0.5;
-    constexpr unsigned int largest_guess_size = 200000;
+    // How much of the residual a first guess leaves at most.
+    constexpr double largest_guess_residual = 0.5;
 
     // What the coarse levels cost to compute, in iterations, measured on the bar.
     constexpr double refresh_cost = 12.;
@@ -84,9 +82,11 @@ namespace Supple
     };
 
 
-    /** Sums of products, in single precision over a few nodes at a time. */
+    /** The sum of what summand(node) gives for each node, in single precision over a few nodes at a
+     * time. */
+    template <class Summand>
     double
-    product(const NodeVector &x, const NodeVector &y, const std::size_t n)
+    sum_over_nodes(const std::size_t n, const Summand &summand)
     {
       constexpr std::size_t at_once = 128;
 
@@ -96,11 +96,19 @@ namespace Supple
           Lanes<float, 3> part[2]{};
           const std::size_t end = std::min(n, first + at_once);
           for (std::size_t node = first; node < end; ++node)
-            part[node % 2] += x[node].lanes * y[node].lanes;
+            part[node % 2] += summand(node);
           for (unsigned int i = 0; i < 3; ++i)
             sum += double(part[0][i]) + double(part[1][i]);
         }
       return sum;
+    }
+
+
+    double
+    product(const NodeVector &x, const NodeVector &y, const std::size_t n)
+    {
+      return sum_over_nodes(n,
+                            [&](const std::size_t node) { return x[node].lanes * y[node].lanes; });
     }
 
 
@@ -156,7 +164,7 @@ namespace Supple
         , Az(A.body.n_local)
         , p(A.body.n_local)
         , q(A.body.n_local)
-        , guesses(!A.body.patches && A.body.n_dofs() <= largest_guess_size)
+        , guesses(!A.body.patches)
         , previous(A.body)
       {
       }
@@ -321,37 +329,41 @@ namespace Supple
               beta = rho / last_rho;
             else if (last_curvature > 0.)
               beta = -sum(product(z, q, n_owned)) / last_curvature;
-            add_direction(beta);
-            last_rho = rho;
-
-            last_curvature    = sum(product(p, q, n_owned));
-            const float alpha = (n > 1 ? rho : sum(product(p, r, n_owned))) / last_curvature;
-            for (std::size_t node = 0; node < n_owned; ++node)
-              {
-                correction[node].lanes += alpha * p[node].lanes;
-                r[node].lanes -= alpha * q[node].lanes;
-              }
-            const double square = sum(product(r, r, n_owned));
+            last_rho            = rho;
+            last_curvature      = add_direction(beta);
+            const float alpha   = (n > 1 ? rho : sum(product(p, r, n_owned))) / last_curvature;
+            const double square = go_along_direction(alpha);
             if (!(square > goal_square) || n >= std::min(limit, single_precision_iterations))
               return n;
           }
       }
 
-      /** p = z + beta p, and q = A p with it */
-      void
+      /** p = z + beta p, and q = A p with it. @return p.q */
+      double
       add_direction(const float beta)
       {
         if (beta == 0.f) // whatever is left of an earlier, perhaps failed solution
           {
             std::copy_n(z.begin(), n_owned, p.begin());
             std::copy_n(Az.begin(), n_owned, q.begin());
-            return;
+            return sum(product(p, q, n_owned));
           }
-        for (std::size_t node = 0; node < n_owned; ++node)
-          {
-            p[node].lanes = z[node].lanes + beta * p[node].lanes;
-            q[node].lanes = Az[node].lanes + beta * q[node].lanes;
-          }
+        return sum(sum_over_nodes(n_owned, [&](const std::size_t node) {
+          p[node].lanes = z[node].lanes + beta * p[node].lanes;
+          q[node].lanes = Az[node].lanes + beta * q[node].lanes;
+          return p[node].lanes * q[node].lanes;
+        }));
+      }
+
+      /** correction += alpha p, and r with it. @return r.r */
+      double
+      go_along_direction(const float alpha)
+      {
+        return sum(sum_over_nodes(n_owned, [&](const std::size_t node) {
+          correction[node].lanes += alpha * p[node].lanes;
+          r[node].lanes -= alpha * q[node].lanes;
+          return r[node].lanes * r[node].lanes;
+        }));
       }
 
       double

@@ -3,6 +3,7 @@
 
 #include <supple/block_matrix.h>
 #include <supple/material.h>
+#include <supple/prefetch.h>
 #include <supple/rotation.h>
 #include <supple/section.h>
 
@@ -270,6 +271,19 @@ namespace Supple
 
     static void
     scatter(const Batch &batch, const NodalPack &values, double *nodal);
+
+    /** action(b) for all batches, in a sweep that asks for their gradients and rotations ahead. */
+    template <class Action>
+    void
+    for_batches(const Action &action) const
+    {
+      for (std::size_t b = 0; b < batches.size(); ++b)
+        {
+          ask_for_next(batches, b);
+          ask_for_next(rotations, b);
+          action(b);
+        }
+    }
 
     void
     add_cell(std::size_t number, const Cell &cell);
