@@ -459,8 +459,8 @@ namespace Supple
         "min",
         Range::at_least(0),
         "A checkpoint is written after so much time on the clock; 0: not by the clock. Where "
-        "either is "
-        "set, Ctrl-C and SIGTERM write one too.");
+        "either is set, Ctrl-C and SIGTERM write one too, unless Corotation/Warp tolerance is "
+        "greater than 0.");
     add_choice(
       prm,
       "Resume",

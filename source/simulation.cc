@@ -363,7 +363,10 @@ namespace Supple
         if (!finished() && interrupt.requested(communicator))
           {
             progress.clear();
-            if (parameters.checkpoint.wanted() && !folder.empty())
+            // The operator forgets at a checkpoint. Where its cells keep their warp, only that of a
+            // step at which an uninterrupted run forgets too lets the run go on as if it were one.
+            if (parameters.checkpoint.wanted() && !folder.empty() &&
+                parameters.corotation.warp_tolerance == 0.)
               write_checkpoint();
             finish("interrupted");
             throw InterruptedError("Interrupted after step " + std::to_string(step) + "." +
