@@ -170,6 +170,7 @@ namespace Supple
     parameters.declare(prm);
     parameters.parse(prm, file, overrides);
     parameters.check();
+    parameters.check_command_line();
     parameters.measured = read_measurements(parameters.path(parameters.measurements),
                                             parameters.unit_length(),
                                             parameters.sets,
@@ -222,6 +223,19 @@ namespace Supple
     if (fit && comparison.correction == SurfaceComparison::Correction::thesis)
       throw InputError(place("Fit") + ": the thesis's depths depend on the pair before; a fit " +
                        "needs Depth correction = converged.");
+  }
+
+
+  void
+  IdentificationParameters::check_command_line() const
+  {
+    for (const Override &override : command_line)
+      for (const auto &[entry, set_by] :
+           {std::make_pair("Time/Steps", "Scene"), std::make_pair("Mesh/Layers", "Thicknesses")})
+        if (override.entry() == entry)
+          throw InputError(override.place + " \"" + override.text +
+                           "\": it would change nothing, for each run of the identification sets " +
+                           entry + " (" + place(set_by) + ").");
   }
 
 

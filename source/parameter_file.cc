@@ -199,6 +199,18 @@ namespace Supple
   } // namespace
 
 
+  std::string
+  Override::entry() const
+  {
+    using dealii::Utilities::trim;
+    const std::string path = text.substr(0, text.find('='));
+    const auto slash       = path.find('/');
+    return slash == std::string::npos
+             ? path
+             : trim(path.substr(0, slash)) + "/" + trim(path.substr(slash + 1));
+  }
+
+
   ParameterFile::ParameterFile(const std::string &file)
     : file(file)
   {

@@ -30,25 +30,13 @@ namespace Supple
     }
 
 
-    /** "Section/Entry" of an override, or all of it if it is none. */
-    std::string
-    entry_of(const Override &override)
-    {
-      const std::string path = override.text.substr(0, override.text.find('='));
-      const auto slash       = path.find('/');
-      return slash == std::string::npos
-               ? path
-               : trim(path.substr(0, slash)) + "/" + trim(path.substr(slash + 1));
-    }
-
-
     /** The override of an entry among these that counts, if there is one. */
     const Override *
     last_of(const std::vector<Override> &overrides, const std::string &entry)
     {
       const auto found =
         std::find_if(overrides.rbegin(), overrides.rend(), [&](const Override &override) {
-          return entry_of(override) == entry;
+          return override.entry() == entry;
         });
       return found == overrides.rend() ? nullptr : &*found;
     }
@@ -125,7 +113,7 @@ namespace Supple
   {
     for (const Override &override : task.command_line)
       {
-        const std::string entry = entry_of(override);
+        const std::string entry = override.entry();
         // Steps of methods are told by the scene's end, which these make.
         if (kind == Kind::methods && (entry == "Time/Step" || entry == "Time/Steps"))
           continue;
@@ -146,7 +134,7 @@ namespace Supple
   {
     for (const std::string &entry : entries)
       for (const Override &override : task.command_line)
-        if (entry_of(override) == entry)
+        if (override.entry() == entry)
           return base.origin(entry) + " does not go with ";
     return "";
   }

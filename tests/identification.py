@@ -234,6 +234,8 @@ refused("Profile", "'nail'", Profile="nail")
 refused("an identification needs a scene", Scene="")
 refused("no such parameter file", Scene="no-such.prm")
 refused("Corotation/Rotation", "proportional", arguments=["--set", "Corotation/Rotation=polar"])
+for setting in ("Time/Steps=3", "Mesh/Layers=0.001, 0.0035"):
+    refused(f'supple: --set "{setting}": it would change nothing', arguments=["--set", setting])
 refused("Time/Problem", "static", arguments=["--set", "Time/Problem=dynamic"])
 refused("Loads/Gravity", "needle alone", arguments=["--set", "Loads/Gravity=0, -9.81, 0"])
 refused("Motion/Of", "outside the body", arguments=["--set", "Motion/Of=nearest to 0.02, 0, 0"])

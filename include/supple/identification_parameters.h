@@ -82,6 +82,10 @@ namespace Supple
     void
     check() const;
 
+    /** What is set in each run can't be set on the command line. */
+    void
+    check_command_line() const;
+
     void
     check_start_depths() const;
   };

@@ -14,6 +14,10 @@ namespace Supple
   {
     std::string text;
     std::string place = "--set"; ///< or file:line of a study
+
+    /** "Section/Entry", or all of the text if it is none. */
+    std::string
+    entry() const;
   };
 
 
