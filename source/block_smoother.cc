@@ -83,6 +83,18 @@ namespace Supple
     }
 
 
+    /** Of D with a diagonal scaled to one; zero where D is not positive definite. */
+    template <unsigned int B>
+    double
+    smallest_scaled_eigenvalue(const Block<B> &D)
+    {
+      const Eigen::Matrix<double, B, 1> scale = D.diagonal().cwiseSqrt().cwiseInverse();
+      const Block<B> scaled                   = scale.asDiagonal() * D * scale.asDiagonal();
+      const Eigen::SelfAdjointEigenSolver<Block<B>> solver(scaled, Eigen::EigenvaluesOnly);
+      return std::max(0., solver.eigenvalues()[0]);
+    }
+
+
     template <unsigned int B>
     void
     write(const Block<B> &block, NodeValues<B> *columns)
@@ -92,6 +104,12 @@ namespace Supple
           columns[j].lanes[i] = static_cast<float>(block(i, j));
     }
   } // namespace
+
+
+  namespace
+  {
+    constexpr double covered_share = 0.9; // of D; the rest keeps the sum definite
+  }
 
 
   template <unsigned int B>
@@ -110,8 +128,13 @@ namespace Supple
         write<B>(D, &diagonal[B * node]);
         if (next_remote != remote.end() && next_remote->node == node)
           {
+            const double covered = 0.5 * covered_share * smallest_scaled_eigenvalue<B>(D);
             for (unsigned int i = 0; i < B; ++i)
-              D(i, i) += next_remote->sum.lanes[i];
+              {
+                float &sum = next_remote->sum.lanes[i];
+                sum        = std::max(0., sum - covered * D(i, i));
+                D(i, i) += sum;
+              }
             ++next_remote;
           }
         positive = invert(D, inverted) && positive;

@@ -14,16 +14,24 @@ namespace Supple
   template <unsigned int B>
   Coarsening<B>::Coarsening(const BlockSmoother<B> &fine,
                             const Halo *halo,
-                            const unsigned int patch_size)
+                            const unsigned int patch_size,
+                            const std::uint32_t largest_replicated)
     : fine(fine)
     , halo(halo)
     , adjacency(fine.pattern)
   {
-    number_aggregates(patch_size);
+    const std::vector<std::uint32_t> first_of = number_aggregates(patch_size);
     find_rows();
     if (distributed())
       find_ghost_rows();
+    const bool coarse_distributed = distributed() && coarse.n_nodes > largest_replicated;
+    if (coarse_distributed)
+      number_known_aggregates();
+    else
+      renumber(coarse.numbers);
     find_product_columns();
+    if (coarse_distributed)
+      exchange_entries(first_of);
     find_coarse_pattern();
     estimate_largest_eigenvalue();
 
@@ -31,14 +39,12 @@ namespace Supple
     resize_in_huge_pages(values, 6 * B * column.size() + 2);
     scale.resize(fine.pattern.n_local);
     tentative.resize(fine.pattern.n_local);
-    resize_in_huge_pages(matrix.lower, matrix.pattern.n_entries());
-    matrix.diagonal.resize(n_coarse);
-    coarse_modes.resize(36 * static_cast<std::size_t>(n_coarse));
+    coarse.modes.resize(36 * static_cast<std::size_t>(coarse.numbers.n_owned));
   }
 
 
   template <unsigned int B>
-  void
+  std::vector<std::uint32_t>
   Coarsening<B>::number_aggregates(const unsigned int patch_size)
   {
     aggregate_of = aggregate(fine, adjacency, patch_size, n_own);
@@ -55,20 +61,22 @@ namespace Supple
       if (aggregate_of[node] != no_aggregate)
         member[end[aggregate_of[node]]++] = node;
 
-    first_own = 0;
-    n_coarse  = n_own;
+    std::vector<std::uint32_t> first_of(1, 0);
     if (distributed())
       {
-        const auto counts = Utilities::MPI::all_gather(halo->communicator(), n_own);
-        const auto own    = counts.begin() + Utilities::MPI::this_mpi_process(halo->communicator());
-        first_own         = std::accumulate(counts.begin(), own, 0u);
-        n_coarse          = std::accumulate(own, counts.end(), first_own);
+        for (const std::uint32_t n : Utilities::MPI::all_gather(halo->communicator(), n_own))
+          first_of.push_back(first_of.back() + n);
+        first_own = first_of[Utilities::MPI::this_mpi_process(halo->communicator())];
         for (std::uint32_t &a : aggregate_of)
           if (a != no_aggregate)
             a += first_own;
         halo->update(aggregate_of.data());
       }
-    mark.assign(n_coarse, no_aggregate);
+    else
+      first_of.push_back(n_own);
+    coarse.n_nodes = first_of.back();
+    coarse.numbers = {0, coarse.n_nodes, {}};
+    return first_of;
   }
 
 
@@ -81,11 +89,9 @@ namespace Supple
     for (std::uint32_t node = 0; node < fine.pattern.n_owned; ++node)
       {
         const auto add = [&](const std::uint32_t a) {
-          if (a != no_aggregate && mark[a] != node)
-            {
-              mark[a] = node;
-              column.push_back(a);
-            }
+          const auto begin = column.begin() + row_start.back();
+          if (a != no_aggregate && std::find(begin, column.end(), a) == column.end())
+            column.push_back(a);
         };
         add(aggregate_of[node]);
         for (std::uint32_t k = adjacency.start[node]; k < adjacency.start[node + 1]; ++k)
@@ -128,9 +134,80 @@ namespace Supple
 
   template <unsigned int B>
   void
+  Coarsening<B>::renumber(NodeNumbers numbers)
+  {
+    for (std::vector<std::uint32_t> *const list : {&aggregate_of, &column, &product_column})
+      for (std::uint32_t &a : *list)
+        if (a != no_aggregate)
+          a = numbers.local(coarse.numbers.global(a));
+    coarse.numbers = std::move(numbers);
+    mark.assign(coarse.numbers.n_local(), no_aggregate);
+  }
+
+
+  template <unsigned int B>
+  void
+  Coarsening<B>::number_known_aggregates()
+  {
+    NodeNumbers numbers{first_own, n_own, column};
+    numbers.complete();
+    renumber(std::move(numbers));
+  }
+
+
+  template <unsigned int B>
+  void
+  Coarsening<B>::exchange_entries(const std::vector<std::uint32_t> &first_of)
+  {
+    exchange = std::make_unique<BlockExchange>(entries_for_others(first_of), halo->communicator());
+
+    NodeNumbers numbers = coarse.numbers;
+    for (const auto &[process, entries] : exchange->received)
+      for (const BlockExchange::Entry &entry : entries)
+        numbers.ghosts.insert(numbers.ghosts.end(), {entry.row, entry.column});
+    numbers.complete();
+    renumber(std::move(numbers));
+
+    IndexSet owned(coarse.n_nodes), ghosts(coarse.n_nodes);
+    owned.add_range(first_own, first_own + n_own);
+    ghosts.add_indices(coarse.numbers.ghosts.begin(), coarse.numbers.ghosts.end());
+    coarse.halo = std::make_unique<Halo>(
+      std::make_shared<const Utilities::MPI::Partitioner>(owned, ghosts, halo->communicator()), 1);
+  }
+
+
+  template <unsigned int B>
+  BlockExchange::Entries
+  Coarsening<B>::entries_for_others(const std::vector<std::uint32_t> &first_of) const
+  {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    for_pairs([&](const std::uint32_t larger, const std::uint32_t smaller) {
+      if (larger >= n_own)
+        pairs.emplace_back(larger, smaller);
+    });
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+
+    const auto owner = [&](const std::uint32_t a) -> unsigned int {
+      return std::upper_bound(first_of.begin(), first_of.end(), a) - first_of.begin() - 1;
+    };
+    BlockExchange::Entries entries;
+    for (const auto &[larger, smaller] : pairs)
+      {
+        const BlockExchange::Entry entry = {coarse.numbers.global(larger),
+                                            coarse.numbers.global(smaller)};
+        entries[owner(entry.row)].push_back(entry);
+        if (smaller >= n_own && owner(entry.column) != owner(entry.row))
+          entries[owner(entry.column)].push_back(entry);
+      }
+    return entries;
+  }
+
+
+  template <unsigned int B>
+  void
   Coarsening<B>::find_product_columns()
   {
-    std::fill(mark.begin(), mark.end(), no_aggregate);
     product_start.assign(1, 0);
     std::size_t longest = 0;
     for (std::uint32_t row = 0; row < fine.pattern.n_local; ++row)
@@ -171,7 +248,8 @@ namespace Supple
   Coarsening<B>::find_coarse_pattern()
   {
     // All pairs, sorted by the larger aggregate.
-    std::vector<std::size_t> start(n_coarse + 1, 0);
+    const std::uint32_t n = coarse.numbers.n_local();
+    std::vector<std::size_t> start(n + 1, 0);
     for_pairs([&](const std::uint32_t larger, std::uint32_t) { ++start[larger + 1]; });
     std::partial_sum(start.begin(), start.end(), start.begin());
     std::vector<std::uint32_t> smaller(start.back()), contribution(start.back());
@@ -182,9 +260,9 @@ namespace Supple
       contribution[end[a]++] = n_contributions++;
     });
 
-    std::vector<std::uint32_t> last(n_coarse, no_aggregate);
-    std::vector<std::vector<std::uint32_t>> rows(n_coarse);
-    for (std::uint32_t a = 0; a < n_coarse; ++a)
+    std::vector<std::uint32_t> last(n, no_aggregate);
+    std::vector<std::vector<std::uint32_t>> rows(n);
+    for (std::uint32_t a = 0; a < n; ++a)
       for (std::size_t k = start[a]; k < start[a + 1]; ++k)
         if (smaller[k] != a && last[smaller[k]] != a)
           {
@@ -192,21 +270,20 @@ namespace Supple
             rows[a].push_back(smaller[k]);
           }
     if (distributed())
-      merge_patterns(rows);
+      add_entries_of_others(rows);
+    const SymmetricPattern between_ghosts = set_coarse_pattern(rows);
+    if (exchange)
+      exchange->find_places(coarse, between_ghosts);
 
-    SymmetricPattern &pattern = matrix.pattern;
-    pattern.n_owned = pattern.n_local = n_coarse;
-    pattern.row_start.assign(1, 0);
     slots.resize(n_contributions);
-    for (std::uint32_t a = 0; a < n_coarse; ++a)
+    for (std::uint32_t a = 0; a < n; ++a)
       {
-        std::sort(rows[a].begin(), rows[a].end());
-        for (const std::uint32_t b : rows[a])
-          {
-            last[b] = pattern.column.size();
-            pattern.column.push_back(b);
-          }
-        pattern.row_start.push_back(pattern.column.size());
+        const auto number = [&](const SymmetricPattern &pattern, const std::size_t first) {
+          for (std::size_t k = pattern.row_start[a]; k < pattern.row_start[a + 1]; ++k)
+            last[pattern.column[k]] = first + k;
+        };
+        number(coarse.matrix.pattern, 0);
+        number(between_ghosts, coarse.matrix.pattern.n_entries());
         last[a] = a; // on the diagonal
         for (std::size_t k = start[a]; k < start[a + 1]; ++k)
           slots[contribution[k]] = last[smaller[k]];
@@ -216,21 +293,50 @@ namespace Supple
 
   template <unsigned int B>
   void
-  Coarsening<B>::merge_patterns(std::vector<std::vector<std::uint32_t>> &rows) const
+  Coarsening<B>::add_entries_of_others(std::vector<std::vector<std::uint32_t>> &rows) const
   {
+    const auto add = [&](const std::uint32_t a, const std::uint32_t b) {
+      if (a != b)
+        rows[std::max(a, b)].push_back(std::min(a, b));
+    };
+    if (exchange)
+      {
+        for (const auto &[process, entries] : exchange->received)
+          for (const BlockExchange::Entry &entry : entries)
+            add(coarse.numbers.local(entry.row), coarse.numbers.local(entry.column));
+        return;
+      }
     std::vector<std::uint32_t> pairs;
     for (std::uint32_t a = 0; a < rows.size(); ++a)
       for (const std::uint32_t b : rows[a])
         pairs.insert(pairs.end(), {a, b});
-    rows.assign(rows.size(), {});
     for (const auto &part : Utilities::MPI::all_gather(halo->communicator(), pairs))
       for (std::size_t k = 0; k < part.size(); k += 2)
-        rows[part[k]].push_back(part[k + 1]);
+        add(part[k], part[k + 1]);
+  }
+
+
+  template <unsigned int B>
+  SymmetricPattern
+  Coarsening<B>::set_coarse_pattern(std::vector<std::vector<std::uint32_t>> &rows)
+  {
+    SymmetricPattern &pattern = coarse.matrix.pattern, between_ghosts;
+    pattern.n_owned           = coarse.numbers.n_owned;
+    pattern.n_local           = coarse.numbers.n_local();
+    pattern.row_start.assign(1, 0);
+    between_ghosts.row_start.assign(1, 0);
     for (auto &row : rows)
       {
         std::sort(row.begin(), row.end());
         row.erase(std::unique(row.begin(), row.end()), row.end());
+        for (const std::uint32_t a : row)
+          (a < pattern.n_owned ? pattern : between_ghosts).column.push_back(a);
+        pattern.row_start.push_back(pattern.column.size());
+        between_ghosts.row_start.push_back(between_ghosts.column.size());
       }
+    resize_in_huge_pages(coarse.matrix.lower, pattern.n_entries() + between_ghosts.n_entries());
+    coarse.matrix.diagonal.resize(pattern.n_local);
+    return between_ghosts;
   }
 
 

@@ -66,7 +66,8 @@ namespace Supple
   void
   Coarsening<B>::set_tentative(const std::vector<double> &modes)
   {
-    std::fill(coarse_modes.begin(), coarse_modes.end(), 0.);
+    std::fill(coarse.modes.begin(), coarse.modes.end(), 0.);
+    const std::uint32_t first = coarse.numbers.local(first_own);
     Eigen::MatrixXd storage;
     for (std::uint32_t a = 0; a < n_own; ++a)
       {
@@ -79,17 +80,16 @@ namespace Supple
           for (unsigned int i = 0; i < B; ++i)
             for (unsigned int j = 0; j < 6; ++j)
               Q(B * k + i, j) = modes[6 * (B * std::size_t(nodes[k]) + i) + j];
-        make_orthonormal(Q, &coarse_modes[36 * std::size_t(first_own + a)]);
+        make_orthonormal(Q, &coarse.modes[36 * std::size_t(first + a)]);
         for (std::uint32_t k = 0; k < n; ++k)
           for (unsigned int i = 0; i < B; ++i)
             for (unsigned int j = 0; j < 6; ++j)
               tentative[nodes[k]].row[i].lanes[j] = static_cast<float>(Q(B * k + i, j));
       }
     if (distributed())
-      {
-        halo->update(tentative.data());
-        Utilities::MPI::sum(coarse_modes, halo->communicator(), coarse_modes);
-      }
+      halo->update(tentative.data());
+    if (replicates())
+      Utilities::MPI::sum(coarse.modes, halo->communicator(), coarse.modes);
   }
 
 
@@ -240,7 +240,7 @@ namespace Supple
   namespace
   {
     void
-    sum_over_processes(std::vector<CoarseMatrix::Block> &blocks, const MPI_Comm communicator)
+    sum_over_all(std::vector<CoarseMatrix::Block> &blocks, const MPI_Comm communicator)
     {
       const std::size_t block_size = sizeof(CoarseMatrix::Block) / sizeof(double);
       const std::size_t at_once    = 1000000; // MPI counts in int
@@ -264,6 +264,7 @@ namespace Supple
   Coarsening<B>::multiply(const MatrixView<B> &A)
   {
     const SymmetricPattern &pattern = fine.pattern;
+    CoarseMatrix &matrix            = coarse.matrix;
     std::fill(matrix.lower.begin(), matrix.lower.end(), CoarseMatrix::Block());
     std::fill(matrix.diagonal.begin(), matrix.diagonal.end(), CoarseMatrix::Block());
 
@@ -280,10 +281,12 @@ namespace Supple
           add_to_product(A.lower + MatrixView<B>::block_size * k, weight, pattern.column[k]);
         add_row(i, slot);
       }
-    if (distributed())
+    if (exchange)
+      exchange->sum(matrix);
+    if (replicates())
       {
-        sum_over_processes(matrix.lower, halo->communicator());
-        sum_over_processes(matrix.diagonal, halo->communicator());
+        sum_over_all(matrix.lower, halo->communicator());
+        sum_over_all(matrix.diagonal, halo->communicator());
       }
   }
 
@@ -322,11 +325,11 @@ namespace Supple
             const WideRows *rows[]    = {&prolongation, &product[f - product_start[i]]};
             const bool swapped        = column[q] < product_column[f];
             if (column[q] != product_column[f])
-              add_product<B>(matrix.lower[place], rows[swapped]->row, rows[!swapped]->row);
+              add_product<B>(coarse.matrix.lower[place], rows[swapped]->row, rows[!swapped]->row);
             else
               {
-                add_product<B>(matrix.diagonal[place], rows[0]->row, rows[1]->row);
-                add_product<B>(matrix.diagonal[place], rows[1]->row, rows[0]->row);
+                add_product<B>(coarse.matrix.diagonal[place], rows[0]->row, rows[1]->row);
+                add_product<B>(coarse.matrix.diagonal[place], rows[1]->row, rows[0]->row);
               }
           }
       }
@@ -338,19 +341,21 @@ namespace Supple
   void
   Coarsening<B>::set_dead_unknowns(const double diagonal_entry)
   {
-    for (std::size_t a = 0; a < n_coarse; ++a)
+    for (std::size_t a = 0; a < coarse.numbers.n_owned; ++a)
       for (unsigned int i = 0; i < 6; ++i)
-        if (coarse_modes[36 * a + 7 * i] == 0.)
-          matrix.diagonal[a].row[i][i] = diagonal_entry;
+        if (coarse.modes[36 * a + 7 * i] == 0.)
+          coarse.matrix.diagonal[a].row[i][i] = diagonal_entry;
   }
 
 
   template <unsigned int B>
   void
-  Coarsening<B>::restrict_residual(NodeValues<6> *coarse, const NodeValues<B> *residual) const
+  Coarsening<B>::restrict_residual(NodeValues<6> *coarse_values,
+                                   const NodeValues<B> *residual) const
   {
-    for (std::uint32_t a = 0; a < n_coarse; ++a)
-      coarse[a].lanes = Lanes<float, 6>{};
+    const std::size_t n_coarse = coarse.numbers.n_local();
+    for (std::size_t a = 0; a < n_coarse; ++a)
+      coarse_values[a].lanes = Lanes<float, 6>{};
     for (std::size_t node = 0; node < fine.pattern.n_owned; ++node)
       {
         Lanes<float, 6> factor[B];
@@ -363,12 +368,14 @@ namespace Supple
             Lanes<float, 6> sum = load_converted<float>(rows) * factor[0];
             for (unsigned int i = 1; i < B; ++i)
               sum += load_converted<float>(rows + 6 * i) * factor[i];
-            coarse[column[q]].lanes += sum;
+            coarse_values[column[q]].lanes += sum;
           }
       }
-    if (distributed())
+    if (coarse.halo)
+      coarse.halo->add_ghosts(coarse_values);
+    if (replicates())
       MPI_Allreduce(MPI_IN_PLACE,
-                    coarse,
+                    coarse_values,
                     n_coarse * sizeof(NodeValues<6>) / sizeof(float),
                     MPI_FLOAT,
                     MPI_SUM,
@@ -378,16 +385,18 @@ namespace Supple
 
   template <unsigned int B>
   void
-  Coarsening<B>::add_correction(NodeValues<B> *x, const NodeValues<6> *coarse) const
+  Coarsening<B>::add_correction(NodeValues<B> *x, NodeValues<6> *coarse_values) const
   {
-    for (std::size_t node = 0; node < fine.pattern.n_owned; ++node)
+    if (coarse.halo)
+      coarse.halo->update(coarse_values);
+    for (std::size_t node = 0; node < fine.pattern.n_local; ++node)
       {
         Lanes<float, 6> sums[B]{};
         for (std::uint32_t q = row_start[node]; q < row_start[node + 1]; ++q)
           {
             const std::int16_t *rows = &values[6 * B * std::size_t(q)];
             __builtin_prefetch(rows + lead);
-            const Lanes<float, 6> unknown = coarse[column[q]].lanes;
+            const Lanes<float, 6> unknown = coarse_values[column[q]].lanes;
             for (unsigned int i = 0; i < B; ++i)
               sums[i] += load_converted<float>(rows + 6 * i) * unknown;
           }

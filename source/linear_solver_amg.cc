@@ -169,6 +169,16 @@ namespace Supple
       {
       }
 
+      std::vector<LevelShare>
+      coarse_levels() const override
+      {
+        std::vector<LevelShare> shares;
+        for (std::size_t l = 0; l < multigrid.n_coarse_levels(); ++l)
+          shares.push_back(
+            {multigrid.coarse_level(l).n_nodes, multigrid.coarse_level(l).numbers.n_owned});
+        return shares;
+      }
+
       void
       forget() override
       {

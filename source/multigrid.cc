@@ -14,6 +14,19 @@ namespace Supple
     constexpr unsigned int largest_inverse      = 80; // nodes of a level that is inverted
     constexpr unsigned int largest_level_number = 20;
 
+    // Up to how many nodes each process has the whole of a level: what has more pays for messages
+    // to be distributed, but processes with a few nodes alone could not make aggregates of them
+    // (benchmarks/ranks).
+    constexpr unsigned int replicated_nodes = 300, nodes_of_process = 4;
+
+
+    std::uint32_t
+    largest_replicated(const Halo &halo)
+    {
+      const unsigned int n_processes = dealii::Utilities::MPI::n_mpi_processes(halo.communicator());
+      return std::max(replicated_nodes, nodes_of_process * n_processes);
+    }
+
     void
     require_positive(const bool positive, const Halo &halo)
     {
@@ -23,19 +36,19 @@ namespace Supple
   } // namespace
 
 
-  Multigrid::Level::Level(const CoarseMatrix &matrix)
-    : matrix(matrix)
-    , smoother(matrix.pattern)
-    , x(matrix.pattern.n_owned)
-    , b(matrix.pattern.n_owned)
-    , residual(matrix.pattern.n_owned)
+  Multigrid::Level::Level(const CoarseLevel &level)
+    : coarse(level)
+    , smoother(level.matrix.pattern)
+    , x(level.matrix.pattern.n_local)
+    , b(level.matrix.pattern.n_local)
+    , residual(level.matrix.pattern.n_local)
   {
   }
 
 
   Multigrid::Multigrid(const SymmetricBlockMatrix &A,
                        std::shared_ptr<const dealii::Utilities::MPI::Partitioner> dofs)
-    : halo(dofs)
+    : halo(dofs, 3)
     , A(A)
     , finest(A.pattern)
     , residual(A.pattern.n_local)
@@ -71,7 +84,7 @@ namespace Supple
     set_scale();
     refresh_finest();
     levels.clear();
-    coarsening = std::make_unique<Coarsening<3>>(finest, &halo, 0);
+    coarsening = std::make_unique<Coarsening<3>>(finest, &halo, 0, largest_replicated(halo));
     coarsening->refresh(view(), factor, modes);
     refresh_coarse_levels(true);
   }
@@ -97,31 +110,28 @@ namespace Supple
   void
   Multigrid::refresh_coarse_levels(const bool build)
   {
-    const CoarseMatrix *matrix       = &coarsening->matrix;
-    const std::vector<double> *modes = &coarsening->coarse_modes;
-    bool positive                    = true;
-    for (std::size_t l = 0; matrix != nullptr; ++l)
+    const CoarseLevel *next = &coarsening->coarse;
+    bool positive           = true;
+    for (std::size_t l = 0; next != nullptr && next->n_nodes > 0; ++l)
       {
-        const std::uint32_t n = matrix->pattern.n_owned;
-        if (n == 0)
-          break;
         if (build)
-          levels.push_back(std::make_unique<Level>(*matrix));
+          levels.push_back(std::make_unique<Level>(*next));
         Level &level = *levels[l];
-        positive     = level.smoother.set(matrix->view(), factor) && positive;
-        matrix       = nullptr;
-        if (n <= largest_inverse)
+        positive     = level.smoother.set(next->matrix.view(), factor) && positive;
+        next         = nullptr;
+        if (level.coarse.n_nodes <= largest_inverse)
           invert(level);
         else
           {
             if (build && l < largest_level_number)
-              level.coarsening =
-                std::make_unique<Coarsening<6>>(level.smoother, nullptr, patch_size);
+              level.coarsening = std::make_unique<Coarsening<6>>(level.smoother,
+                                                                 level.coarse.halo.get(),
+                                                                 patch_size,
+                                                                 largest_replicated(halo));
             if (level.coarsening)
               {
-                level.coarsening->refresh(level.matrix.view(), factor, *modes);
-                matrix = &level.coarsening->matrix;
-                modes  = &level.coarsening->coarse_modes;
+                level.coarsening->refresh(level.coarse.matrix.view(), factor, level.coarse.modes);
+                next = &level.coarsening->coarse;
               }
           }
       }
@@ -132,7 +142,7 @@ namespace Supple
   void
   Multigrid::invert(Level &level)
   {
-    const SymmetricPattern &pattern = level.matrix.pattern;
+    const SymmetricPattern &pattern = level.coarse.matrix.pattern;
     const unsigned int n            = 6 * pattern.n_owned;
     Eigen::MatrixXd full            = Eigen::MatrixXd::Zero(n, n);
     const auto write = [&](const std::size_t i, const std::size_t j, const auto &block) {
@@ -142,9 +152,9 @@ namespace Supple
     };
     for (std::size_t i = 0; i < pattern.n_owned; ++i)
       {
-        write(i, i, level.matrix.diagonal[i]);
+        write(i, i, level.coarse.matrix.diagonal[i]);
         for (std::size_t k = pattern.row_start[i]; k < pattern.row_start[i + 1]; ++k)
-          write(i, pattern.column[k], level.matrix.lower[k]);
+          write(i, pattern.column[k], level.coarse.matrix.lower[k]);
       }
     const Eigen::LLT<Eigen::MatrixXd> factorization(full); // of the lower half
     require_positive(factorization.info() == Eigen::Success, halo);
@@ -169,7 +179,13 @@ namespace Supple
             level.x[node].lanes[i] = level.solution[6 * node + i];
         return;
       }
+    const Halo *const level_halo = level.coarse.halo.get();
     level.smoother.forward(level.x.data(), level.residual.data(), level.b.data());
+    if (level_halo != nullptr)
+      {
+        level_halo->update(level.x.data());
+        level.smoother.subtract_remote(level.residual.data(), level.x.data());
+      }
     if (l + 1 < levels.size())
       {
         Level &coarser = *levels[l + 1];
@@ -177,6 +193,8 @@ namespace Supple
         cycle(l + 1);
         level.coarsening->add_correction(level.x.data(), coarser.x.data());
       }
+    if (level_halo != nullptr)
+      level.smoother.subtract_remote(level.b.data(), level.x.data());
     level.smoother.backward(level.x.data(), level.b.data());
   }
 
@@ -198,10 +216,7 @@ namespace Supple
       }
     std::copy(r, r + A.pattern.n_owned, residual.begin());
     if (!halo.single())
-      {
-        halo.update(z);
-        finest.subtract_remote(residual.data(), z);
-      }
+      finest.subtract_remote(residual.data(), z);
     finest.backward(z, residual.data(), r, difference.data(), product);
     if (!halo.single())
       {

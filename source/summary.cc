@@ -114,6 +114,13 @@ namespace Supple
       };
       json["partition"] = {{"cells", range(over_ranks[0])},
                            {"ghost_vertices", range(over_ranks[1])}};
+      for (const auto &level : model.solver.coarse_levels())
+        {
+          const double n_owned = level.n_owned;
+          Json share = range(dealii::Utilities::MPI::min_max_avg(n_owned, body.mesh.communicator));
+          share["nodes"] = level.n_nodes;
+          json["partition"]["coarse_levels"].push_back(share);
+        }
       for (unsigned int phase = 0; phase < phase_names.size(); ++phase)
         {
           const auto &seconds                          = over_ranks[first_of_phases + phase];

@@ -62,17 +62,20 @@ def largest_difference(exact, found):
     return worst
 
 
-def compare(name, *settings, ranks=1):
-    """Energies, momenta and volumes of the same scene with both solvers."""
+def compare(name, *settings, ranks=1, direct="ldlt", distributed=False):
+    """Energies, momenta and volumes of the same scene with both solvers; whether the first coarse level is distributed."""
     scene = dict(BASE)
     for some in settings:
         scene.update(some)
-    exact = runner.simulate(runner.BAR, {**scene, "Solver/Method": "ldlt"})
+    exact = runner.simulate(runner.BAR, {**scene, "Solver/Method": direct})
     found = runner.simulate(runner.BAR, {**scene, "Solver/Method": "cg-amg"}, ranks=ranks)
     difference = largest_difference(exact.history(), found.history())
     solver = found.summary()["solver"]
     print(f"{name}: within {difference:.1e}, {solver['iterations'] / solver['solves']:.1f} iterations")
     runner.check(solver["name"] == "cg-amg", solver["name"])
+    if ranks > 1:
+        level = found.summary()["partition"]["coarse_levels"][0]
+        runner.check((level["most"] < level["nodes"]) == distributed, f"{name}: {level}")
     # round-off may leave more than the tolerance, and does so with every solver
     attainable = max(1e-11, 3 * exact.summary()["solver"]["max_relative_residual"])
     runner.check(solver["max_relative_residual"] <= attainable,
@@ -113,6 +116,14 @@ compare("static, linear rod", rod, HELD, STATIC, {"Loads/Gravity": "0, 0, -1e-4"
 compare("two processes", block, HELD, ranks=2)
 compare("pieces on two processes", pieces, HELD, ranks=2)
 compare("static, slivers on two processes", slivers, HELD, STATIC, {"Loads/Gravity": "0, 0, -1"}, ranks=2)
+
+# Bodies with coarse levels that are distributed.
+halves = write("halves.msh", brick((20, 16, 16), (1, 1, 1), jitter=0.25, material=lambda x: 2 if x[0] > 0.5 else 1))
+two = write("two.msh", brick((16, 16, 16), (1, 1, 1)), brick((12, 12, 12), (0.5, 0.5, 0.5), (2, 0, 0)))
+THOUSAND = {"Material/By id": "2: 1e9, 0.3, 1000"}
+for ranks in (2, 4):
+    compare(f"large, on {ranks} processes", halves, HELD, THOUSAND, {"Time/Steps": 2}, ranks=ranks, direct="cholmod", distributed=True)
+    compare(f"large pieces, on {ranks} processes", two, HELD, {"Time/Steps": 2}, ranks=ranks, direct="cholmod", distributed=True)
 
 # More iterations than allowed: asked for by name it fails and says what may help.
 short = ["--set", "Solver/Method=cg-amg", "--set", "Solver/Iterations=3", "--set", "Time/Steps=5", "--set", "Time/Step=0.07"]

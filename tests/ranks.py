@@ -42,6 +42,21 @@ probes = runner.largest_difference(one.probes(), six.probes(), ["tip.ux", "tip.u
 runner.check(probes <= 1e-8, f"six processes for six cells differ by {probes}")
 print(f"six processes: probes within {probes:.1e}")
 
+# Bodies large enough for coarse levels that are distributed too; in the second one half of the processes and more have nothing
+# but held vertices or hardly anything else, and so no part of them.
+large = {"Mesh/Box cubes": "12, 48, 12", "Solver/Tolerance": 1e-12, "Time/Steps": 3}
+for name, settings, several in [("a large bar", {}, (2, 4)), ("a bar held by a third", {"Constraints/Clamped region": "y > 8.1"}, (8,))]:
+    one = runner.simulate(runner.BAR, {**large, **settings})
+    for ranks in several:
+        found = runner.simulate(runner.BAR, {**large, **settings}, ranks=ranks)
+        history = runner.largest_difference(one.history(), found.history(), PHYSICAL)
+        probes = runner.largest_difference(one.probes(), found.probes(), [name for name in one.probes()[0] if name != "step"])
+        runner.check(max(history, probes) <= 1e-8, f"{name} on {ranks} processes differs by {history}, {probes}")
+        first, *rest = found.summary()["partition"]["coarse_levels"]
+        runner.check(first["most"] < 0.7 * first["nodes"] and (first["least"] == 0) == (settings != {}), f"{first}")
+        runner.check(all(level["least"] == level["most"] == level["nodes"] for level in rest), f"{rest}")
+        print(f"{name} on {ranks}: history within {history:.1e}, probes within {probes:.1e}")
+
 # What a process is told of its part of the mesh: materials, patches, boundaries by expressions, indices of vertices.
 parts = {"Mesh/Layers": "6, 6", "Material/By id": "1: 5e6, 0.49, 1200", "Material/Poisson ratio": 0.49, "Material/Volumetric locking cure": "patches",
          "Material/Mass per vertex": 500, "Mesh/Boundary regions": "7: z > 3.9", "Loads/Traction on": 7,

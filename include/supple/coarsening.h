@@ -2,32 +2,10 @@
 #define supple_coarsening_h
 
 #include <supple/aggregation.h>
-#include <supple/halo.h>
+#include <supple/block_exchange.h>
 
 namespace Supple
 {
-  /** The matrix of a coarse level: six unknowns a node, blocks with rows of eight. Whole on every
-   * process. */
-  struct CoarseMatrix
-  {
-    struct Block
-    {
-      Lanes<double, 6> row[6];
-    };
-
-    SymmetricPattern pattern;
-    std::vector<Block> lower, diagonal;
-
-    MatrixView<6>
-    view() const
-    {
-      return {pattern,
-              reinterpret_cast<const double *>(lower.data()),
-              reinterpret_cast<const double *>(diagonal.data())};
-    }
-  };
-
-
   /**
    * The step from a level to the next coarser one by smoothed aggregation (Vanek, Mandel, Brezina
    * 1996): every aggregate of nodes becomes a node with six unknowns, which stand for its rigid
@@ -41,8 +19,11 @@ namespace Supple
    * P is kept in whole numbers of sixteen bits, with a scale for each node: the matrix of the
    * coarse level is that of the P so rounded, and half the bytes are to be read.
    *
-   * The finest level is distributed: each process makes aggregates of its own nodes, and knows the
-   * rows of P of its own nodes and ghosts. Coarse levels are the same on all processes.
+   * Each process makes aggregates of its own nodes, and knows the rows of P of these and of ghosts.
+   * The coarse level is distributed as the aggregates are, with all aggregates as ghosts that a
+   * process has in its rows of P or next to its own in the matrix. If it is too small for that,
+   * each process has the whole of it, and sums go over all. So is what comes after a level that
+   * each process has the whole of, without messages.
    */
   template <unsigned int B>
   class Coarsening
@@ -51,10 +32,14 @@ namespace Supple
     /**
      * Chooses aggregates and finds the patterns of P and of the coarse matrix.
      * @param fine       stays in use
-     * @param halo       of the finest level, null for others
+     * @param halo       of the fine level, null where each process has the whole of it
      * @param patch_size see aggregate()
+     * @param largest_replicated the coarse level is distributed if it has more nodes than this
      */
-    Coarsening(const BlockSmoother<B> &fine, const Halo *halo, unsigned int patch_size);
+    Coarsening(const BlockSmoother<B> &fine,
+               const Halo *halo,
+               unsigned int patch_size,
+               std::uint32_t largest_replicated);
 
     /**
      * Computes P and the coarse matrix anew on the same aggregates.
@@ -65,17 +50,15 @@ namespace Supple
     void
     refresh(const MatrixView<B> &A, double factor, const std::vector<double> &modes);
 
-    /** coarse = P^T residual */
+    /** coarse_values = P^T residual on owned nodes */
     void
-    restrict_residual(NodeValues<6> *coarse, const NodeValues<B> *residual) const;
+    restrict_residual(NodeValues<6> *coarse_values, const NodeValues<B> *residual) const;
 
-    /** x += P coarse */
+    /** x += P coarse_values, at ghosts too. Brings the ghost values of the coarse level. */
     void
-    add_correction(NodeValues<B> *x, const NodeValues<6> *coarse) const;
+    add_correction(NodeValues<B> *x, NodeValues<6> *coarse_values) const;
 
-    std::uint32_t n_coarse; ///< aggregates on all processes
-    CoarseMatrix matrix;
-    std::vector<double> coarse_modes; ///< R, 36 for each aggregate
+    CoarseLevel coarse; ///< its modes are R
 
   private:
     /** A row of T, or a node's part of a column of P times A, in lanes. */
@@ -95,7 +78,15 @@ namespace Supple
       return halo != nullptr && !halo->single();
     }
 
-    void
+    /** Whether it is here that each process gets the whole of what was distributed. */
+    bool
+    replicates() const
+    {
+      return distributed() && !coarse.halo;
+    }
+
+    /** @return the first aggregate of each process, and one after the last */
+    std::vector<std::uint32_t>
     number_aggregates(unsigned int patch_size);
 
     void
@@ -103,6 +94,23 @@ namespace Supple
 
     void
     find_ghost_rows();
+
+    /** Changes the local numbers of aggregates; up to the first time they are those counted over
+     * all processes. */
+    void
+    renumber(NodeNumbers numbers);
+
+    /** Gives those aggregates local numbers that are in the rows of P. */
+    void
+    number_known_aggregates();
+
+    /** Tells other processes what this one contributes to the rows they have of a distributed
+     * matrix; what they contribute here makes further aggregates ghosts. */
+    void
+    exchange_entries(const std::vector<std::uint32_t> &first_of);
+
+    BlockExchange::Entries
+    entries_for_others(const std::vector<std::uint32_t> &first_of) const;
 
     /** The aggregates that (L + D/2) P has entries for in each row. */
     void
@@ -117,8 +125,13 @@ namespace Supple
     void
     find_coarse_pattern();
 
+    /** @param rows of the coarse matrix, in local numbers, with the smaller ones of each entry */
     void
-    merge_patterns(std::vector<std::vector<std::uint32_t>> &rows) const;
+    add_entries_of_others(std::vector<std::vector<std::uint32_t>> &rows) const;
+
+    /** @return the pattern of what others keep */
+    SymmetricPattern
+    set_coarse_pattern(std::vector<std::vector<std::uint32_t>> &rows);
 
     void
     estimate_largest_eigenvalue();
@@ -155,9 +168,10 @@ namespace Supple
     const Adjacency adjacency;
     double largest_eigenvalue; ///< of D^-1 A
 
-    std::vector<std::uint32_t> aggregate_of;         ///< of local nodes, counted over all processes
-    std::uint32_t first_own, n_own;                  ///< aggregates of this process
+    std::vector<std::uint32_t> aggregate_of;         ///< of local nodes
+    std::uint32_t first_own = 0, n_own;              ///< aggregates of this process
     std::vector<std::uint32_t> member_start, member; ///< nodes of own aggregates
+    std::unique_ptr<BlockExchange> exchange; ///< null where the coarse level is not distributed
 
     std::vector<std::uint32_t> row_start, column; ///< of P, for local nodes
     std::vector<float> scale;                     ///< of the rows of a node

@@ -53,6 +53,20 @@ namespace Supple
     std::string
     stand_in_name() const;
 
+    /** What a process has of a coarse level of multigrid. */
+    struct LevelShare
+    {
+      unsigned int n_nodes; ///< of the level, on all processes
+      unsigned int n_owned; ///< those of this process, or all if each process has the whole level
+    };
+
+    /** From the finest to the coarsest; none if this solver has none, or has not made them yet. */
+    virtual std::vector<LevelShare>
+    coarse_levels() const
+    {
+      return {};
+    }
+
     std::string reason; ///< why this solver
 
   protected:

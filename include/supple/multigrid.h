@@ -15,8 +15,9 @@ namespace Supple
    * after each coarser level (BlockSmoother), a V-cycle in single precision, and an inverse matrix
    * on the coarsest level. It is symmetric and positive definite.
    *
-   * The finest level is distributed over processes as the matrix is; the coarser ones, by a factor
-   * of fifteen to twenty smaller each, are computed by every process for itself.
+   * The finest level is distributed over processes as the matrix is, and so are the coarser ones,
+   * by a factor of fifteen to twenty smaller each, as long as they are large enough to pay for
+   * their messages. What is smaller every process computes for itself.
    */
   class Multigrid
   {
@@ -65,6 +66,18 @@ namespace Supple
       return factor * mean_diagonal();
     }
 
+    std::size_t
+    n_coarse_levels() const
+    {
+      return levels.size();
+    }
+
+    const CoarseLevel &
+    coarse_level(const std::size_t l) const
+    {
+      return levels[l]->coarse;
+    }
+
     const Halo halo;
 
   private:
@@ -72,9 +85,9 @@ namespace Supple
      * smoother. */
     struct Level
     {
-      explicit Level(const CoarseMatrix &matrix);
+      explicit Level(const CoarseLevel &level);
 
-      const CoarseMatrix &matrix;
+      const CoarseLevel &coarse;
       BlockSmoother<6> smoother;
       std::unique_ptr<Coarsening<6>> coarsening;
       Eigen::MatrixXf inverse;
