@@ -1,5 +1,6 @@
 #include <supple/block_matrix.h>
 #include <supple/huge_pages.h>
+#include <supple/prefetch.h>
 
 #include <algorithm>
 
@@ -42,7 +43,6 @@ namespace Supple
 
   namespace
   {
-    constexpr std::ptrdiff_t lead = 256; // numbers between those in use and those asked for
   }
 
 
@@ -66,7 +66,7 @@ namespace Supple
         for (std::size_t k = pattern.row_start[i]; k < pattern.row_start[i + 1]; ++k)
           {
             const double *a = &lower[9 * k];
-            __builtin_prefetch(a + lead);
+            ask_for_line_ahead(a);
             const double *xj = x + 3 * static_cast<std::size_t>(pattern.column[k]);
             double *yj       = y + 3 * static_cast<std::size_t>(pattern.column[k]);
 

@@ -1,5 +1,6 @@
 #include <supple/block_smoother.h>
 #include <supple/huge_pages.h>
+#include <supple/prefetch.h>
 
 #include <Eigen/Dense>
 
@@ -146,18 +147,14 @@ namespace Supple
 
   namespace
   {
-    // How far ahead of its use a block is asked for [bytes]: what memory takes to answer.
-    constexpr std::ptrdiff_t lead = 2048;
-
-
     /** Asks for the block that comes after some more, or before if the sweep goes backwards. */
     template <unsigned int B, int direction>
     inline void
     ask_for_next(const float *block)
     {
-      constexpr std::ptrdiff_t line = 64;
-      for (std::ptrdiff_t part = 0; part < std::ptrdiff_t(B * B * sizeof(float)); part += line)
-        __builtin_prefetch(reinterpret_cast<const char *>(block) + direction * lead + part);
+      constexpr std::size_t line = 64 / sizeof(float);
+      for (std::size_t k = 0; k < B * B; k += line)
+        ask_for_line_ahead<direction>(block + k);
     }
   } // namespace
 

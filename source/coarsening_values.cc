@@ -1,4 +1,5 @@
 #include <supple/coarsening.h>
+#include <supple/prefetch.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -14,8 +15,6 @@ namespace Supple
   {
     // What remains of a motion beside the others, at the least, to count as another one.
     constexpr double independent = 1e-6;
-
-    constexpr std::ptrdiff_t lead = 1024; // numbers of P between those in use and those asked for
 
 
     /** Makes the columns of Q orthonormal, Q R = old Q; those that depend on others become zero. */
@@ -364,7 +363,7 @@ namespace Supple
         for (std::uint32_t q = row_start[node]; q < row_start[node + 1]; ++q)
           {
             const std::int16_t *rows = &values[6 * B * std::size_t(q)];
-            __builtin_prefetch(rows + lead);
+            ask_for_line_ahead(rows);
             Lanes<float, 6> sum = load_converted<float>(rows) * factor[0];
             for (unsigned int i = 1; i < B; ++i)
               sum += load_converted<float>(rows + 6 * i) * factor[i];
@@ -395,7 +394,7 @@ namespace Supple
         for (std::uint32_t q = row_start[node]; q < row_start[node + 1]; ++q)
           {
             const std::int16_t *rows = &values[6 * B * std::size_t(q)];
-            __builtin_prefetch(rows + lead);
+            ask_for_line_ahead(rows);
             const Lanes<float, 6> unknown = coarse_values[column[q]].lanes;
             for (unsigned int i = 0; i < B; ++i)
               sums[i] += load_converted<float>(rows + 6 * i) * unknown;

@@ -1,4 +1,5 @@
 #include <supple/implicit_operator.h>
+#include <supple/prefetch.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -211,8 +212,6 @@ namespace Supple
                       double *y,
                       const double *x)
     {
-      constexpr std::ptrdiff_t lead = 256; // numbers between those in use and those asked for
-
       const SymmetricPattern &pattern = A.pattern;
       for (std::size_t i = 0; i < pattern.n_local; ++i)
         {
@@ -228,7 +227,7 @@ namespace Supple
           for (std::size_t k = pattern.row_start[i]; k < pattern.row_start[i + 1]; ++k)
             {
               const double *block = &A.lower[9 * k];
-              __builtin_prefetch(block + lead);
+              ask_for_line_ahead(block);
               const double mass = m * M.lower[k];
               const double *xj  = x + 3 * static_cast<std::size_t>(pattern.column[k]);
               double *yj        = y + 3 * static_cast<std::size_t>(pattern.column[k]);

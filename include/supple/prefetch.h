@@ -6,6 +6,18 @@
 
 namespace Supple
 {
+  /** Asks memory for the line of what a sweep over a matrix comes to later, or has been at before
+   * if it goes backwards. It may lie outside of the matrix. Nothing but speed depends on it. */
+  template <int direction = 1>
+  inline void
+  ask_for_line_ahead(const void *const at)
+  {
+    constexpr std::ptrdiff_t lead = 8192; // bytes
+
+    __builtin_prefetch(static_cast<const char *>(at) + direction * lead);
+  }
+
+
   /** Asks memory for what a sweep over values, which is at k, comes to two later: one takes about
    * as long to compute as memory takes to answer. Nothing but speed depends on it. */
   template <class T>
