@@ -41,11 +41,6 @@ namespace Supple
   }
 
 
-  namespace
-  {
-  }
-
-
   void
   SymmetricBlockMatrix::vmult(double *y, const double *x) const
   {

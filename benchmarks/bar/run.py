@@ -16,7 +16,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import timing
 
 PHASES = ["rotations", "forces", "assembly", "solver_setup", "solve"]
-STEPS = {1: 500, 2: 200, 3: 100, 4: 60, 8: 60, 16: 30}
+STEPS = {1: 500, 2: 200, 3: 100, 4: 60, 8: 60, 16: 60}
 
 
 def row(summary):
