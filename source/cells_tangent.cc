@@ -242,8 +242,9 @@ namespace Supple
                      SymmetricBlockMatrix &A,
                      const double added_bulk) const
   {
-    for (std::size_t b = 0; b < batches.size(); ++b)
+    for_batches_in_turn([&](const std::size_t b) {
       add_tangent_of_batch(b, mass_factor, stiffness_factor, rotation_factor, added_bulk, A);
+    });
     if (vertex_mass > 0.)
       A.add_to_diagonal(mass_factor * vertex_mass);
   }

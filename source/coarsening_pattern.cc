@@ -34,6 +34,7 @@ namespace Supple
     resize_in_huge_pages(matrix.lower, matrix.pattern.n_entries());
     matrix.diagonal.resize(n_coarse);
     coarse_modes.resize(36 * static_cast<std::size_t>(n_coarse));
+    partial_sums.assign(fine.pattern.n_pieces() - 1, std::vector<NodeValues<6>>(n_coarse));
   }
 
 

@@ -347,11 +347,12 @@ namespace Supple
 
   template <unsigned int B>
   void
-  Coarsening<B>::restrict_residual(NodeValues<6> *coarse, const NodeValues<B> *residual) const
+  Coarsening<B>::restrict_residual(const SymmetricPattern::Piece &piece,
+                                   NodeValues<6> *coarse,
+                                   const NodeValues<B> *residual) const
   {
-    for (std::uint32_t a = 0; a < n_coarse; ++a)
-      coarse[a].lanes = Lanes<float, 6>{};
-    for (std::size_t node = 0; node < fine.pattern.n_owned; ++node)
+    std::fill(coarse, coarse + n_coarse, NodeValues<6>());
+    for (std::size_t node = piece.begin; node < piece.end; ++node)
       {
         Lanes<float, 6> factor[B];
         for (unsigned int i = 0; i < B; ++i)
@@ -366,6 +367,21 @@ namespace Supple
             coarse[column[q]].lanes += sum;
           }
       }
+  }
+
+
+  template <unsigned int B>
+  void
+  Coarsening<B>::restrict_residual(NodeValues<6> *coarse, const NodeValues<B> *residual)
+  {
+    fine.pattern.for_pieces([&](const SymmetricPattern::Piece &piece) {
+      NodeValues<6> *const sums =
+        piece.number == 0 ? coarse : partial_sums[piece.number - 1].data();
+      restrict_residual(piece, sums, residual);
+    });
+    for (const std::vector<NodeValues<6>> &sums : partial_sums)
+      for (std::uint32_t a = 0; a < n_coarse; ++a)
+        coarse[a].lanes += sums[a].lanes;
     if (distributed())
       MPI_Allreduce(MPI_IN_PLACE,
                     coarse,
@@ -380,19 +396,21 @@ namespace Supple
   void
   Coarsening<B>::add_correction(NodeValues<B> *x, const NodeValues<6> *coarse) const
   {
-    for (std::size_t node = 0; node < fine.pattern.n_owned; ++node)
-      {
-        Lanes<float, 6> sums[B]{};
-        for (std::uint32_t q = row_start[node]; q < row_start[node + 1]; ++q)
-          {
-            const std::int16_t *rows = &values[6 * B * std::size_t(q)];
-            __builtin_prefetch(rows + lead);
-            const Lanes<float, 6> unknown = coarse[column[q]].lanes;
-            for (unsigned int i = 0; i < B; ++i)
-              sums[i] += load_converted<float>(rows + 6 * i) * unknown;
-          }
-        x[node].lanes += scale[node] * sums_of_lanes(sums);
-      }
+    fine.pattern.for_pieces([=](const SymmetricPattern::Piece &piece) {
+      for (std::size_t node = piece.begin; node < piece.end; ++node)
+        {
+          Lanes<float, 6> sums[B]{};
+          for (std::uint32_t q = row_start[node]; q < row_start[node + 1]; ++q)
+            {
+              const std::int16_t *rows = &values[6 * B * std::size_t(q)];
+              __builtin_prefetch(rows + lead);
+              const Lanes<float, 6> unknown = coarse[column[q]].lanes;
+              for (unsigned int i = 0; i < B; ++i)
+                sums[i] += load_converted<float>(rows + 6 * i) * unknown;
+            }
+          x[node].lanes += scale[node] * sums_of_lanes(sums);
+        }
+    });
   }
 
 

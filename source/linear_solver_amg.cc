@@ -84,17 +84,20 @@ namespace Supple
     };
 
 
+    using Piece = SymmetricPattern::Piece;
+
+
     /** Sums of products, in single precision over a few nodes at a time. */
     double
-    product(const NodeVector &x, const NodeVector &y, const std::size_t n)
+    product(const NodeVector &x, const NodeVector &y, const Piece &piece)
     {
       constexpr std::size_t at_once = 128;
 
       double sum = 0.;
-      for (std::size_t first = 0; first < n; first += at_once)
+      for (std::size_t first = piece.begin; first < piece.end; first += at_once)
         {
           Lanes<float, 3> part[2]{};
-          const std::size_t end = std::min(n, first + at_once);
+          const std::size_t end = std::min<std::size_t>(piece.end, first + at_once);
           for (std::size_t node = first; node < end; ++node)
             part[node % 2] += x[node].lanes * y[node].lanes;
           for (unsigned int i = 0; i < 3; ++i)
@@ -149,6 +152,7 @@ namespace Supple
       AmgSolver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort)
         : IterativeSolver(A, parameters, effort)
         , multigrid(preconditioning_matrix.get(), A.body.partitioner)
+        , pattern(A.matrix().pattern)
         , n_owned(A.body.n_owned)
         , correction(A.body.n_local)
         , r(A.body.n_local)
@@ -285,9 +289,11 @@ namespace Supple
       add_correction(Vector &x, const double size) const
       {
         const double unit = size * multigrid.scale();
-        for (std::size_t node = 0; node < n_owned; ++node)
-          for (unsigned int i = 0; i < 3; ++i)
-            x.local_element(3 * node + i) += unit * double(correction[node].lanes[i]);
+        pattern.for_pieces([&](const Piece &piece) {
+          for (std::size_t node = piece.begin; node < piece.end; ++node)
+            for (unsigned int i = 0; i < 3; ++i)
+              x.local_element(3 * node + i) += unit * double(correction[node].lanes[i]);
+        });
       }
 
       /**
@@ -303,55 +309,82 @@ namespace Supple
              const double factor,
              const unsigned int limit)
       {
-        for (std::size_t node = 0; node < n_owned; ++node)
-          {
-            for (unsigned int i = 0; i < 3; ++i)
-              r[node].lanes[i] = residual.local_element(3 * node + i) / size;
-            correction[node].lanes = Lanes<float, 3>{};
-          }
-        const double goal_square = factor * factor * sum(product(r, r, n_owned));
+        const double goal_square = factor * factor * take_residual(residual, size);
         for (unsigned int n = 1;; ++n)
           {
             multigrid.apply(z.data(), Az.data(), r.data());
-            const double rho = sum(product(r, z, n_owned));
+            const double rho = sum_of_products(r, z);
             // The residual that has just been computed anew is not what the recurrence had: then
             // the direction is made conjugate to the last one by definition.
             double beta = 0.;
             if (n > 1)
               beta = rho / last_rho;
             else if (last_curvature > 0.)
-              beta = -sum(product(z, q, n_owned)) / last_curvature;
-            add_direction(beta);
-            last_rho = rho;
+              beta = -sum_of_products(z, q) / last_curvature;
+            last_rho       = rho;
+            last_curvature = add_direction(beta);
 
-            last_curvature    = sum(product(p, q, n_owned));
-            const float alpha = (n > 1 ? rho : sum(product(p, r, n_owned))) / last_curvature;
-            for (std::size_t node = 0; node < n_owned; ++node)
-              {
-                correction[node].lanes += alpha * p[node].lanes;
-                r[node].lanes -= alpha * q[node].lanes;
-              }
-            const double square = sum(product(r, r, n_owned));
+            const float alpha   = (n > 1 ? rho : sum_of_products(p, r)) / last_curvature;
+            const double square = advance(alpha);
             if (!(square > goal_square) || n >= std::min(limit, single_precision_iterations))
               return n;
           }
       }
 
-      /** p = z + beta p, and q = A p with it */
-      void
+      /** r = residual / size, correction = 0. @return r.r */
+      double
+      take_residual(const Vector &residual, const double size)
+      {
+        return sum(pattern.sum_over_pieces([&](const Piece &piece) {
+          for (std::size_t node = piece.begin; node < piece.end; ++node)
+            {
+              for (unsigned int i = 0; i < 3; ++i)
+                r[node].lanes[i] = residual.local_element(3 * node + i) / size;
+              correction[node].lanes = Lanes<float, 3>{};
+            }
+          return product(r, r, piece);
+        }));
+      }
+
+      /** p = z + beta p, and q = A p with it. @return p.q */
+      double
       add_direction(const float beta)
       {
-        if (beta == 0.f) // whatever is left of an earlier, perhaps failed solution
-          {
-            std::copy_n(z.begin(), n_owned, p.begin());
-            std::copy_n(Az.begin(), n_owned, q.begin());
-            return;
-          }
-        for (std::size_t node = 0; node < n_owned; ++node)
-          {
-            p[node].lanes = z[node].lanes + beta * p[node].lanes;
-            q[node].lanes = Az[node].lanes + beta * q[node].lanes;
-          }
+        return sum(pattern.sum_over_pieces([&](const Piece &piece) {
+          if (beta == 0.f) // whatever is left of an earlier, perhaps failed solution
+            {
+              std::copy(z.data() + piece.begin, z.data() + piece.end, p.data() + piece.begin);
+              std::copy(Az.data() + piece.begin, Az.data() + piece.end, q.data() + piece.begin);
+            }
+          else
+            for (std::size_t node = piece.begin; node < piece.end; ++node)
+              {
+                p[node].lanes = z[node].lanes + beta * p[node].lanes;
+                q[node].lanes = Az[node].lanes + beta * q[node].lanes;
+              }
+          return product(p, q, piece);
+        }));
+      }
+
+      /** Goes a step along p. @return r.r */
+      double
+      advance(const float alpha)
+      {
+        return sum(pattern.sum_over_pieces([&](const Piece &piece) {
+          for (std::size_t node = piece.begin; node < piece.end; ++node)
+            {
+              correction[node].lanes += alpha * p[node].lanes;
+              r[node].lanes -= alpha * q[node].lanes;
+            }
+          return product(r, r, piece);
+        }));
+      }
+
+      double
+      sum_of_products(const NodeVector &x, const NodeVector &y) const
+      {
+        return sum(
+          pattern.sum_over_pieces([&](const Piece &piece) { return product(x, y, piece); }));
       }
 
       double
@@ -365,6 +398,7 @@ namespace Supple
       bool built              = false;
       double factor_of_levels = 0.; ///< of the stiffness in the matrix of the coarse levels
       double reduction        = largest_reduction; ///< until it turns out to be too much
+      const SymmetricPattern &pattern;
       const std::size_t n_owned;
       std::vector<double> rigid_motions;
       NodeVector correction, r, z, Az, p, q;

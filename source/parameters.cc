@@ -286,6 +286,15 @@ namespace Supple
         Range::whole_number(1),
         "Conjugate gradients that need more for one solution have failed: then auto takes another "
         "solver, and one that was asked for by name ends the run.");
+    add(prm,
+        "Threads",
+        threads,
+        "none",
+        Range::whole_number(1),
+        "At most, of each process, for cells, matrices and the finest level of multigrid; "
+        "summary.json says how many there were. Each has 8000 cells at least, so that small bodies "
+        "stay on one. The result depends on their number as it does on that of processes, within "
+        "the tolerance, and not on the time.");
     prm.leave_subsection();
   }
 

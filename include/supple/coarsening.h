@@ -67,7 +67,7 @@ namespace Supple
 
     /** coarse = P^T residual */
     void
-    restrict_residual(NodeValues<6> *coarse, const NodeValues<B> *residual) const;
+    restrict_residual(NodeValues<6> *coarse, const NodeValues<B> *residual);
 
     /** x += P coarse */
     void
@@ -150,6 +150,12 @@ namespace Supple
     void
     set_dead_unknowns(double diagonal_entry);
 
+    /** P^T residual of the nodes of a piece. */
+    void
+    restrict_residual(const SymmetricPattern::Piece &piece,
+                      NodeValues<6> *coarse,
+                      const NodeValues<B> *residual) const;
+
     const BlockSmoother<B> &fine;
     const Halo *const halo;
     const Adjacency adjacency;
@@ -172,6 +178,8 @@ namespace Supple
     WideRows prolongation;           ///< an entry of P at hand
     std::vector<char> ghost_records; ///< rows of P on their way between processes
     std::uint32_t longest_row = 0;   ///< of P, over all processes
+
+    std::vector<std::vector<NodeValues<6>>> partial_sums; ///< P^T residual, of pieces but the first
   };
 } // namespace Supple
 
