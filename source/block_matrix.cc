@@ -169,7 +169,9 @@ namespace Supple
                  d[3] * x0 + d[4] * x1 + d[5] * x2,
                  d[6] * x0 + d[7] * x1 + d[8] * x2}};
         add_blocks(*this, i, begin, end, y, x, sum);
-        std::copy(sum.begin(), sum.end(), y + 3 * i);
+        y[3 * i]     = sum[0];
+        y[3 * i + 1] = sum[1];
+        y[3 * i + 2] = sum[2];
       });
     pattern.for_outer_entries(
       [=](const std::size_t i, const std::size_t begin, const std::size_t end) {
@@ -196,7 +198,9 @@ namespace Supple
         const double d = diagonal[i];
         Sum sum{{d * x[3 * i], d * x[3 * i + 1], d * x[3 * i + 2]}};
         add_multiples(*this, i, begin, end, y, x, sum);
-        std::copy(sum.begin(), sum.end(), y + 3 * i);
+        y[3 * i]     = sum[0];
+        y[3 * i + 1] = sum[1];
+        y[3 * i + 2] = sum[2];
       });
     pattern.for_outer_entries(
       [=](const std::size_t i, const std::size_t begin, const std::size_t end) {

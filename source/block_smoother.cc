@@ -301,21 +301,24 @@ namespace Supple
   void
   BlockSmoother<B>::forward(NodeValues<B> *x, NodeValues<B> *residual, const NodeValues<B> *b) const
   {
-    pattern.for_pieces([=](const Piece &piece) { forward(piece, x, residual, b); });
+    for_pieces([=](const Piece &piece, const auto cut) {
+      sweep_forward<decltype(cut)::value>(piece, x, residual, b);
+    });
   }
 
 
   template <unsigned int B>
+  template <bool cut>
   void
-  BlockSmoother<B>::forward(const Piece &piece,
-                            NodeValues<B> *x,
-                            NodeValues<B> *residual,
-                            const NodeValues<B> *b) const
+  BlockSmoother<B>::sweep_forward(const Piece &piece,
+                                  NodeValues<B> *x,
+                                  NodeValues<B> *residual,
+                                  const NodeValues<B> *b) const
   {
-    const std::size_t *const inner_start = pattern.inner_start();
     for (std::size_t i = piece.begin; i < piece.end; ++i)
       {
-        const std::size_t begin = inner_start[i], end = pattern.row_start[i + 1];
+        const std::size_t begin = pattern.template inner_start<cut>(i),
+                          end   = pattern.row_start[i + 1];
 
         const Lanes<float, B> x_i = solve_diagonal(i, b[i].lanes - row_product<1>(begin, end, x));
         x[i].lanes                = x_i;
@@ -344,18 +347,20 @@ namespace Supple
   void
   BlockSmoother<B>::backward(NodeValues<B> *x, NodeValues<B> *b) const
   {
-    pattern.for_pieces([=](const Piece &piece) { backward(piece, x, b); });
+    for_pieces(
+      [=](const Piece &piece, const auto cut) { sweep_back<decltype(cut)::value>(piece, x, b); });
   }
 
 
   template <unsigned int B>
+  template <bool cut>
   void
-  BlockSmoother<B>::backward(const Piece &piece, NodeValues<B> *x, NodeValues<B> *b) const
+  BlockSmoother<B>::sweep_back(const Piece &piece, NodeValues<B> *x, NodeValues<B> *b) const
   {
-    const std::size_t *const inner_start = pattern.inner_start();
     for (std::size_t i = piece.end; i-- > piece.begin;)
       {
-        const std::size_t begin = inner_start[i], end = pattern.row_start[i + 1];
+        const std::size_t begin = pattern.template inner_start<cut>(i),
+                          end   = pattern.row_start[i + 1];
 
         const Lanes<float, B> x_i = solve_diagonal(i, b[i].lanes - row_product<-1>(begin, end, x));
         x[i].lanes                = x_i;
@@ -372,33 +377,37 @@ namespace Supple
                              NodeValues<B> *change,
                              NodeValues<B> *product) const
   {
-    pattern.for_pieces([=](const Piece &piece) { backward(piece, x, b, rhs, change, product); });
+    for_pieces([=](const Piece &piece, const auto cut) {
+      sweep_back<decltype(cut)::value>(piece, x, b, rhs, change, product);
+    });
   }
 
 
   template <unsigned int B>
+  template <bool cut>
   void
-  BlockSmoother<B>::backward(const Piece &piece,
-                             NodeValues<B> *x,
-                             NodeValues<B> *b,
-                             const NodeValues<B> *rhs,
-                             NodeValues<B> *change,
-                             NodeValues<B> *product) const
+  BlockSmoother<B>::sweep_back(const Piece &piece,
+                               NodeValues<B> *x,
+                               NodeValues<B> *b,
+                               const NodeValues<B> *rhs,
+                               NodeValues<B> *change,
+                               NodeValues<B> *product) const
   {
-    const std::size_t *const inner_start = pattern.inner_start();
-    std::size_t row                      = piece.end; // of the product, all that follow are done
+    std::size_t row = piece.end; // of the product, all that follow are done
     for (std::size_t i = piece.end; i-- > piece.begin;)
       {
-        const std::size_t begin = inner_start[i], end = pattern.row_start[i + 1];
+        const std::size_t begin = pattern.template inner_start<cut>(i),
+                          end   = pattern.row_start[i + 1];
 
         const Lanes<float, B> x_i = solve_diagonal(i, b[i].lanes - row_product<-1>(begin, end, x));
         change[i].lanes           = x[i].lanes - x_i;
         x[i].lanes                = x_i;
         add_transposed(begin, end, -x_i, b);
-        for (; row > i && first_column(row - 1, inner_start) >= i; --row)
+        for (; row > i && first_column<cut>(row - 1) >= i; --row)
           product[row - 1].lanes =
-            rhs[row - 1].lanes -
-            row_product<0>(inner_start[row - 1], pattern.row_start[row], change);
+            rhs[row - 1].lanes - row_product<0>(pattern.template inner_start<cut>(row - 1),
+                                                pattern.row_start[row],
+                                                change);
       }
   }
 

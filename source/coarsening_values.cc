@@ -396,21 +396,30 @@ namespace Supple
   void
   Coarsening<B>::add_correction(NodeValues<B> *x, const NodeValues<6> *coarse) const
   {
-    fine.pattern.for_pieces([=](const SymmetricPattern::Piece &piece) {
-      for (std::size_t node = piece.begin; node < piece.end; ++node)
-        {
-          Lanes<float, 6> sums[B]{};
-          for (std::uint32_t q = row_start[node]; q < row_start[node + 1]; ++q)
-            {
-              const std::int16_t *rows = &values[6 * B * std::size_t(q)];
-              __builtin_prefetch(rows + lead);
-              const Lanes<float, 6> unknown = coarse[column[q]].lanes;
-              for (unsigned int i = 0; i < B; ++i)
-                sums[i] += load_converted<float>(rows + 6 * i) * unknown;
-            }
-          x[node].lanes += scale[node] * sums_of_lanes(sums);
-        }
-    });
+    fine.pattern.for_pieces(
+      [=](const SymmetricPattern::Piece &piece) { add_correction(piece, x, coarse); });
+  }
+
+
+  template <unsigned int B>
+  void
+  Coarsening<B>::add_correction(const SymmetricPattern::Piece &piece,
+                                NodeValues<B> *x,
+                                const NodeValues<6> *coarse) const
+  {
+    for (std::size_t node = piece.begin, end = piece.end; node < end; ++node)
+      {
+        Lanes<float, 6> sums[B]{};
+        for (std::uint32_t q = row_start[node]; q < row_start[node + 1]; ++q)
+          {
+            const std::int16_t *rows = &values[6 * B * std::size_t(q)];
+            __builtin_prefetch(rows + lead);
+            const Lanes<float, 6> unknown = coarse[column[q]].lanes;
+            for (unsigned int i = 0; i < B; ++i)
+              sums[i] += load_converted<float>(rows + 6 * i) * unknown;
+          }
+        x[node].lanes += scale[node] * sums_of_lanes(sums);
+      }
   }
 
 

@@ -56,11 +56,20 @@ namespace Supple
       return piece_start.empty() ? 1 : piece_start.size() - 1;
     }
 
-    /** Where the inner entries of each owned row begin; they end where the row does. */
-    const std::size_t *
-    inner_start() const
+    /** Whether there is more than one piece. */
+    bool
+    is_cut() const
     {
-      return inner.empty() ? row_start.data() : inner.data();
+      return !piece_start.empty();
+    }
+
+    /** Where the inner entries of an owned row begin; they end where the row does. Sweeps know
+     * whether there are pieces when they are compiled: one pointer less. */
+    template <bool cut>
+    std::size_t
+    inner_start(const std::size_t row) const
+    {
+      return cut ? inner[row] : row_start[row];
     }
 
     /** action(piece), on several threads. */
@@ -68,12 +77,9 @@ namespace Supple
     void
     for_pieces(const Action &action) const
     {
-      if (piece_start.empty())
-        action(Piece{0, 0, n_owned});
-      else
-        run_tasks(n_pieces(), [&](const unsigned int p) {
-          action(Piece{p, piece_start[p], piece_start[p + 1]});
-        });
+      run_tasks(n_pieces(), [&](const unsigned int p) {
+        action(is_cut() ? Piece{p, piece_start[p], piece_start[p + 1]} : Piece{0, 0, n_owned});
+      });
     }
 
     /** The sum of action(piece), in the order of the pieces. */
@@ -81,7 +87,7 @@ namespace Supple
     double
     sum_over_pieces(const Action &action) const
     {
-      if (piece_start.empty())
+      if (!is_cut())
         return action(Piece{0, 0, n_owned});
       std::vector<double> parts(n_pieces());
       for_pieces([&](const Piece &piece) { parts[piece.number] = action(piece); });
@@ -96,11 +102,14 @@ namespace Supple
     void
     for_inner_entries(const Action &action) const
     {
-      const std::size_t *const begin = inner_start();
-      for_pieces([&](const Piece &piece) {
-        for (std::size_t row = piece.begin; row < piece.end; ++row)
-          action(row, begin[row], row_start[row + 1]);
-      });
+      if (is_cut())
+        for_pieces([&](const Piece &piece) {
+          for (std::size_t row = piece.begin; row < piece.end; ++row)
+            action(row, inner[row], row_start[row + 1]);
+        });
+      else
+        for (std::size_t row = 0; row < n_owned; ++row)
+          action(row, row_start[row], row_start[row + 1]);
     }
 
     /** action(row, begin, end) with the outer entries of the rows that have some. */

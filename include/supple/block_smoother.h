@@ -5,6 +5,7 @@
 #include <supple/lanes.h>
 
 #include <array>
+#include <type_traits>
 #include <vector>
 
 namespace Supple
@@ -114,29 +115,45 @@ namespace Supple
                    NodeValues<B> *y) const;
 
     /** Of inner entries; the row itself if there are none. */
+    template <bool cut>
     std::size_t
-    first_column(const std::size_t row, const std::size_t *inner_start) const
+    first_column(const std::size_t row) const
     {
-      const std::size_t k = inner_start[row];
+      const std::size_t k = pattern.template inner_start<cut>(row);
       return k < pattern.row_start[row + 1] ? pattern.column[k] : row;
     }
 
+    /** action(piece, whether the pattern is cut), on several threads. */
+    template <class Action>
     void
-    forward(const Piece &piece,
-            NodeValues<B> *x,
-            NodeValues<B> *residual,
-            const NodeValues<B> *b) const;
+    for_pieces(const Action &action) const
+    {
+      if (pattern.is_cut())
+        pattern.for_pieces([&](const Piece &piece) { action(piece, std::true_type()); });
+      else
+        action(Piece{0, 0, pattern.n_owned}, std::false_type());
+    }
 
-    void
-    backward(const Piece &piece, NodeValues<B> *x, NodeValues<B> *b) const;
+    // Apart from the code for threads the compiler has registers for all that a sweep needs.
+    template <bool cut>
+    [[gnu::noinline]] void
+    sweep_forward(const Piece &piece,
+                  NodeValues<B> *x,
+                  NodeValues<B> *residual,
+                  const NodeValues<B> *b) const;
 
-    void
-    backward(const Piece &piece,
-             NodeValues<B> *x,
-             NodeValues<B> *b,
-             const NodeValues<B> *rhs,
-             NodeValues<B> *change,
-             NodeValues<B> *product) const;
+    template <bool cut>
+    [[gnu::noinline]] void
+    sweep_back(const Piece &piece, NodeValues<B> *x, NodeValues<B> *b) const;
+
+    template <bool cut>
+    [[gnu::noinline]] void
+    sweep_back(const Piece &piece,
+               NodeValues<B> *x,
+               NodeValues<B> *b,
+               const NodeValues<B> *rhs,
+               NodeValues<B> *change,
+               NodeValues<B> *product) const;
 
     void
     set_lower(std::size_t begin, std::size_t end, const double *values, double factor);

@@ -156,6 +156,11 @@ namespace Supple
                       NodeValues<6> *coarse,
                       const NodeValues<B> *residual) const;
 
+    void
+    add_correction(const SymmetricPattern::Piece &piece,
+                   NodeValues<B> *x,
+                   const NodeValues<6> *coarse) const;
+
     const BlockSmoother<B> &fine;
     const Halo *const halo;
     const Adjacency adjacency;
