@@ -3,6 +3,7 @@
 #include <supple/prefetch.h>
 
 #include <algorithm>
+#include <array>
 
 namespace Supple
 {
@@ -16,19 +17,63 @@ namespace Supple
   }
 
 
+  void
+  SymmetricPattern::cut(const unsigned int n_pieces)
+  {
+    piece_start.clear();
+    inner.clear();
+    outer_rows.clear();
+    if (n_pieces == 1)
+      return;
+    for (std::size_t p = 0; p <= n_pieces; ++p)
+      {
+        // A row costs about as much as its block on the diagonal does.
+        const auto cost  = [&](const std::size_t row) { return row_start[row] + row; };
+        std::size_t low  = 0;
+        std::size_t high = n_owned;
+        while (low < high)
+          {
+            const std::size_t middle = (low + high) / 2;
+            if (cost(middle) * n_pieces < p * cost(n_owned))
+              low = middle + 1;
+            else
+              high = middle;
+          }
+        piece_start.push_back(low);
+      }
+    inner.assign(row_start.begin(), row_start.begin() + n_owned);
+    for (unsigned int p = 1; p < n_pieces; ++p)
+      for (std::uint32_t row = piece_start[p]; row < piece_start[p + 1]; ++row)
+        {
+          while (inner[row] < row_start[row + 1] && column[inner[row]] < piece_start[p])
+            ++inner[row];
+          if (inner[row] > row_start[row])
+            outer_rows.push_back(row);
+        }
+  }
+
+
   SymmetricBlockMatrix::SymmetricBlockMatrix(const SymmetricPattern &pattern)
     : pattern(pattern)
-    , diagonal(9 * (pattern.n_owned + 1))
+    , diagonal(9 * (pattern.n_owned + pattern.n_pieces()))
   {
-    resize_in_huge_pages(lower, 9 * (pattern.n_entries() + 1));
+    resize_in_huge_pages(lower, 9 * (pattern.n_entries() + pattern.n_pieces()));
   }
 
 
   void
   SymmetricBlockMatrix::set_zero()
   {
-    std::fill(lower.begin(), lower.end(), 0.);
-    std::fill(diagonal.begin(), diagonal.end(), 0.);
+    pattern.for_pieces([this](const SymmetricPattern::Piece &piece) {
+      std::fill(diagonal.data() + 9 * std::size_t(piece.begin),
+                diagonal.data() + 9 * std::size_t(piece.end),
+                0.);
+      std::fill(lower.data() + 9 * pattern.row_start[piece.begin],
+                lower.data() + 9 * pattern.row_start[piece.end],
+                0.);
+    });
+    std::fill(lower.begin() + 9 * pattern.row_start[pattern.n_owned], lower.end(), 0.);
+    std::fill(diagonal.begin() + 9 * std::size_t(pattern.n_owned), diagonal.end(), 0.);
   }
 
 
@@ -41,51 +86,105 @@ namespace Supple
   }
 
 
+  namespace
+  {
+    using Sum = std::array<double, 3>;
+
+
+    /** sum += A_ij x_j and y_j += A_ij^T x_i for entries of a row. */
+    inline void
+    add_blocks(const SymmetricBlockMatrix &A,
+               const std::size_t i,
+               const std::size_t begin,
+               const std::size_t end,
+               double *y,
+               const double *x,
+               Sum &sum)
+    {
+      const double x0 = x[3 * i], x1 = x[3 * i + 1], x2 = x[3 * i + 2];
+      for (std::size_t k = begin; k < end; ++k)
+        {
+          const double *a = &A.lower[9 * k];
+          ask_for_line_ahead(a);
+          const double *xj = x + 3 * static_cast<std::size_t>(A.pattern.column[k]);
+          double *yj       = y + 3 * static_cast<std::size_t>(A.pattern.column[k]);
+
+          sum[0] += a[0] * xj[0] + a[1] * xj[1] + a[2] * xj[2];
+          sum[1] += a[3] * xj[0] + a[4] * xj[1] + a[5] * xj[2];
+          sum[2] += a[6] * xj[0] + a[7] * xj[1] + a[8] * xj[2];
+          yj[0] += a[0] * x0 + a[3] * x1 + a[6] * x2;
+          yj[1] += a[1] * x0 + a[4] * x1 + a[7] * x2;
+          yj[2] += a[2] * x0 + a[5] * x1 + a[8] * x2;
+        }
+    }
+
+
+    /** The same where A_ij is a multiple of the identity. */
+    inline void
+    add_multiples(const SymmetricScalarMatrix &A,
+                  const std::size_t i,
+                  const std::size_t begin,
+                  const std::size_t end,
+                  double *y,
+                  const double *x,
+                  Sum &sum)
+    {
+      const double x0 = x[3 * i], x1 = x[3 * i + 1], x2 = x[3 * i + 2];
+      for (std::size_t k = begin; k < end; ++k)
+        {
+          const double a   = A.lower[k];
+          const double *xj = x + 3 * static_cast<std::size_t>(A.pattern.column[k]);
+          double *yj       = y + 3 * static_cast<std::size_t>(A.pattern.column[k]);
+
+          sum[0] += a * xj[0];
+          sum[1] += a * xj[1];
+          sum[2] += a * xj[2];
+          yj[0] += a * x0;
+          yj[1] += a * x1;
+          yj[2] += a * x2;
+        }
+    }
+
+
+    void
+    add_to_row(const SymmetricPattern &pattern, const std::size_t i, const Sum &sum, double *y)
+    {
+      if (i < pattern.n_owned)
+        for (unsigned int a = 0; a < 3; ++a)
+          y[3 * i + a] += sum[a];
+    }
+  } // namespace
+
+
   void
   SymmetricBlockMatrix::vmult(double *y, const double *x) const
   {
     // Row i comes after all rows it adds to, so that y[i] can be set and added to in one sweep.
-    for (unsigned int i = 0; i < pattern.n_local; ++i)
-      {
-        const bool owned = i < pattern.n_owned;
+    pattern.for_inner_entries(
+      [=](const std::size_t i, const std::size_t begin, const std::size_t end) {
         const double x0 = x[3 * i], x1 = x[3 * i + 1], x2 = x[3 * i + 2];
-        double y0 = 0., y1 = 0., y2 = 0.;
-        if (owned)
-          {
-            const double *d = &diagonal[9 * static_cast<std::size_t>(i)];
-
-            y0 = d[0] * x0 + d[1] * x1 + d[2] * x2;
-            y1 = d[3] * x0 + d[4] * x1 + d[5] * x2;
-            y2 = d[6] * x0 + d[7] * x1 + d[8] * x2;
-          }
-        for (std::size_t k = pattern.row_start[i]; k < pattern.row_start[i + 1]; ++k)
-          {
-            const double *a = &lower[9 * k];
-            ask_for_line_ahead(a);
-            const double *xj = x + 3 * static_cast<std::size_t>(pattern.column[k]);
-            double *yj       = y + 3 * static_cast<std::size_t>(pattern.column[k]);
-
-            y0 += a[0] * xj[0] + a[1] * xj[1] + a[2] * xj[2];
-            y1 += a[3] * xj[0] + a[4] * xj[1] + a[5] * xj[2];
-            y2 += a[6] * xj[0] + a[7] * xj[1] + a[8] * xj[2];
-            yj[0] += a[0] * x0 + a[3] * x1 + a[6] * x2;
-            yj[1] += a[1] * x0 + a[4] * x1 + a[7] * x2;
-            yj[2] += a[2] * x0 + a[5] * x1 + a[8] * x2;
-          }
-        if (owned)
-          {
-            y[3 * i]     = y0;
-            y[3 * i + 1] = y1;
-            y[3 * i + 2] = y2;
-          }
-      }
+        const double *d = &diagonal[9 * i];
+        Sum sum{{d[0] * x0 + d[1] * x1 + d[2] * x2,
+                 d[3] * x0 + d[4] * x1 + d[5] * x2,
+                 d[6] * x0 + d[7] * x1 + d[8] * x2}};
+        add_blocks(*this, i, begin, end, y, x, sum);
+        y[3 * i]     = sum[0];
+        y[3 * i + 1] = sum[1];
+        y[3 * i + 2] = sum[2];
+      });
+    pattern.for_outer_entries(
+      [=](const std::size_t i, const std::size_t begin, const std::size_t end) {
+        Sum sum{};
+        add_blocks(*this, i, begin, end, y, x, sum);
+        add_to_row(pattern, i, sum, y);
+      });
   }
 
 
   SymmetricScalarMatrix::SymmetricScalarMatrix(const SymmetricPattern &pattern)
     : pattern(pattern)
-    , lower(pattern.n_entries() + 1)
-    , diagonal(pattern.n_owned + 1)
+    , lower(pattern.n_entries() + pattern.n_pieces())
+    , diagonal(pattern.n_owned + pattern.n_pieces())
   {
   }
 
@@ -93,31 +192,20 @@ namespace Supple
   void
   SymmetricScalarMatrix::vmult(double *y, const double *x) const
   {
-    for (unsigned int i = 0; i < pattern.n_local; ++i)
-      {
-        const bool owned = i < pattern.n_owned;
-        const double x0 = x[3 * i], x1 = x[3 * i + 1], x2 = x[3 * i + 2];
-        const double d = owned ? diagonal[i] : 0.;
-        double y0 = d * x0, y1 = d * x1, y2 = d * x2;
-        for (std::size_t k = pattern.row_start[i]; k < pattern.row_start[i + 1]; ++k)
-          {
-            const double a   = lower[k];
-            const double *xj = x + 3 * static_cast<std::size_t>(pattern.column[k]);
-            double *yj       = y + 3 * static_cast<std::size_t>(pattern.column[k]);
-
-            y0 += a * xj[0];
-            y1 += a * xj[1];
-            y2 += a * xj[2];
-            yj[0] += a * x0;
-            yj[1] += a * x1;
-            yj[2] += a * x2;
-          }
-        if (owned)
-          {
-            y[3 * i]     = y0;
-            y[3 * i + 1] = y1;
-            y[3 * i + 2] = y2;
-          }
-      }
+    pattern.for_inner_entries(
+      [=](const std::size_t i, const std::size_t begin, const std::size_t end) {
+        const double d = diagonal[i];
+        Sum sum{{d * x[3 * i], d * x[3 * i + 1], d * x[3 * i + 2]}};
+        add_multiples(*this, i, begin, end, y, x, sum);
+        y[3 * i]     = sum[0];
+        y[3 * i + 1] = sum[1];
+        y[3 * i + 2] = sum[2];
+      });
+    pattern.for_outer_entries(
+      [=](const std::size_t i, const std::size_t begin, const std::size_t end) {
+        Sum sum{};
+        add_multiples(*this, i, begin, end, y, x, sum);
+        add_to_row(pattern, i, sum, y);
+      });
   }
 } // namespace Supple

@@ -17,15 +17,36 @@ namespace Supple
   {
     // The load of a row takes in what follows it.
     resize_in_huge_pages(lower, B * B * pattern.n_entries() + 8);
+    find_remote_couplings();
+  }
 
-    const auto ghost_columns = pattern.column.begin() + pattern.row_start[pattern.n_owned];
-    std::vector<std::uint32_t> nodes(ghost_columns, pattern.column.end());
+
+  template <unsigned int B>
+  void
+  BlockSmoother<B>::find_remote_couplings()
+  {
+    std::vector<std::uint32_t> nodes;
+    const auto for_nodes = [this](const auto &action) {
+      pattern.for_outer_entries(
+        [&](const std::size_t row, const std::size_t begin, const std::size_t end) {
+          for (std::size_t k = begin; k < end; ++k)
+            action(pattern.column[k], row < pattern.n_owned ? row : pattern.column[k]);
+        });
+    };
+    for_nodes([&](const std::uint32_t column, const std::uint32_t row) {
+      nodes.push_back(column);
+      nodes.push_back(row);
+    });
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     for (const std::uint32_t node : nodes)
       remote.push_back({node, NodeValues<B>()});
-    for (auto column = ghost_columns; column != pattern.column.end(); ++column)
-      remote_index.push_back(std::lower_bound(nodes.begin(), nodes.end(), *column) - nodes.begin());
+    const auto place = [&](const std::uint32_t node) {
+      return std::uint32_t(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+    };
+    for_nodes([&](const std::uint32_t column, const std::uint32_t row) {
+      remote_index.push_back({{place(column), place(row)}});
+    });
   }
 
 
@@ -33,13 +54,27 @@ namespace Supple
   bool
   BlockSmoother<B>::set(const MatrixView<B> &A, const double factor)
   {
-    constexpr unsigned int row_size = MatrixView<B>::row_size;
-    const std::size_t n_rows        = B * pattern.n_entries();
-    for (std::size_t row = 0; row < n_rows; ++row)
-      for (unsigned int j = 0; j < B; ++j)
-        lower[B * row + j] = static_cast<float>(factor * A.lower[row_size * row + j]);
+    pattern.for_pieces([&](const Piece &piece) {
+      set_lower(pattern.row_start[piece.begin], pattern.row_start[piece.end], A.lower, factor);
+    });
+    set_lower(pattern.row_start[pattern.n_owned], pattern.n_entries(), A.lower, factor);
     sum_remote_couplings();
-    return set_diagonal(A, factor);
+    return pattern.sum_over_pieces(
+             [&](const Piece &piece) { return set_diagonal(piece, A, factor) ? 0. : 1.; }) == 0.;
+  }
+
+
+  template <unsigned int B>
+  void
+  BlockSmoother<B>::set_lower(const std::size_t begin,
+                              const std::size_t end,
+                              const double *values,
+                              const double factor)
+  {
+    constexpr unsigned int row_size = MatrixView<B>::row_size;
+    for (std::size_t row = B * begin; row < B * end; ++row)
+      for (unsigned int j = 0; j < B; ++j)
+        lower[B * row + j] = static_cast<float>(factor * values[row_size * row + j]);
   }
 
 
@@ -49,14 +84,19 @@ namespace Supple
   {
     for (RemoteSum &entry : remote)
       entry.sum.lanes = Lanes<float, B>{};
-    const float *block = lower.data() + B * B * pattern.row_start[pattern.n_owned];
-    for (const std::uint32_t index : remote_index)
-      {
-        for (unsigned int i = 0; i < B; ++i)
-          for (unsigned int j = 0; j < B; ++j)
-            remote[index].sum.lanes[j] += 0.5f * std::abs(block[B * i + j]);
-        block += B * B;
-      }
+    auto index = remote_index.begin();
+    pattern.for_outer_entries(
+      [&](const std::size_t row, const std::size_t begin, const std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k, ++index)
+          for (unsigned int i = 0; i < B; ++i)
+            for (unsigned int j = 0; j < B; ++j)
+              {
+                const float half = 0.5f * std::abs(lower[B * (B * k + i) + j]);
+                remote[(*index)[0]].sum.lanes[j] += half;
+                if (row < pattern.n_owned)
+                  remote[(*index)[1]].sum.lanes[i] += half;
+              }
+      });
   }
 
 
@@ -104,22 +144,23 @@ namespace Supple
         for (unsigned int i = 0; i < B; ++i)
           columns[j].lanes[i] = static_cast<float>(block(i, j));
     }
-  } // namespace
 
-
-  namespace
-  {
     constexpr double covered_share = 0.9; // of D; the rest keeps the sum definite
-  }
+  }                                       // namespace
 
 
   template <unsigned int B>
   bool
-  BlockSmoother<B>::set_diagonal(const MatrixView<B> &A, const double factor)
+  BlockSmoother<B>::set_diagonal(const Piece &piece, const MatrixView<B> &A, const double factor)
   {
     bool positive    = true;
-    auto next_remote = remote.begin();
-    for (std::size_t node = 0; node < pattern.n_owned; ++node)
+    auto next_remote = std::lower_bound(remote.begin(),
+                                        remote.end(),
+                                        piece.begin,
+                                        [](const RemoteSum &entry, const std::uint32_t node) {
+                                          return entry.node < node;
+                                        });
+    for (std::size_t node = piece.begin; node < piece.end; ++node)
       {
         const double *values = A.diagonal + MatrixView<B>::block_size * node;
         Block<B> D, inverted;
@@ -147,10 +188,9 @@ namespace Supple
 
   namespace
   {
-    /** Asks for the block that comes after some more, or before if the sweep goes backwards. */
     template <unsigned int B, int direction>
     inline void
-    ask_for_next(const float *block)
+    ask_for_block_ahead(const float *block)
     {
       constexpr std::size_t line = 64 / sizeof(float);
       for (std::size_t k = 0; k < B * B; k += line)
@@ -162,13 +202,15 @@ namespace Supple
   template <unsigned int B>
   template <int direction>
   inline Lanes<float, B>
-  BlockSmoother<B>::row_product(const std::size_t row, const NodeValues<B> *x) const
+  BlockSmoother<B>::row_product(const std::size_t begin,
+                                const std::size_t end,
+                                const NodeValues<B> *x) const
   {
     Lanes<float, B> sums[B]{};
-    for (std::size_t k = pattern.row_start[row]; k < pattern.row_start[row + 1]; ++k)
+    for (std::size_t k = begin; k < end; ++k)
       {
         if constexpr (direction != 0)
-          ask_for_next<B, direction>(&lower[B * B * k]);
+          ask_for_block_ahead<B, direction>(&lower[B * B * k]);
         const Lanes<float, B> x_j = x[pattern.column[k]].lanes;
         for (unsigned int i = 0; i < B; ++i)
           sums[i] += load<Lanes<float, B>>(&lower[B * (B * k + i)]) * x_j;
@@ -179,14 +221,15 @@ namespace Supple
 
   template <unsigned int B>
   inline void
-  BlockSmoother<B>::add_transposed(const std::size_t row,
+  BlockSmoother<B>::add_transposed(const std::size_t begin,
+                                   const std::size_t end,
                                    const Lanes<float, B> &x,
                                    NodeValues<B> *y) const
   {
     Lanes<float, B> factor[B];
     for (unsigned int i = 0; i < B; ++i)
       factor[i] = broadcast<B>(x[i]);
-    for (std::size_t k = pattern.row_start[row]; k < pattern.row_start[row + 1]; ++k)
+    for (std::size_t k = begin; k < end; ++k)
       {
         Lanes<float, B> sum = load<Lanes<float, B>>(&lower[B * B * k]) * factor[0];
         for (unsigned int i = 1; i < B; ++i)
@@ -250,7 +293,7 @@ namespace Supple
           x_i[a] = broadcast<B>(x[i].lanes[a]);
         for (std::size_t k = pattern.row_start[i]; k < pattern.row_start[i + 1]; ++k)
           {
-            ask_for_next<B, 1>(&lower[B * B * k]);
+            ask_for_block_ahead<B, 1>(&lower[B * B * k]);
             const std::uint32_t j     = pattern.column[k];
             const Lanes<float, B> x_j = x[j].lanes;
             Lanes<float, B> y_j       = y[j].lanes;
@@ -265,7 +308,7 @@ namespace Supple
         y[i].lanes = diagonal_product(i, x[i].lanes) + sums_of_lanes(sums);
       }
     for (std::size_t i = pattern.n_owned; i < pattern.n_local; ++i)
-      add_transposed(i, x[i].lanes, y);
+      add_transposed(pattern.row_start[i], pattern.row_start[i + 1], x[i].lanes, y);
   }
 
 
@@ -273,12 +316,29 @@ namespace Supple
   void
   BlockSmoother<B>::forward(NodeValues<B> *x, NodeValues<B> *residual, const NodeValues<B> *b) const
   {
-    for (std::size_t i = 0; i < pattern.n_owned; ++i)
+    for_pieces([=](const Piece &piece, const auto cut) {
+      sweep_forward<decltype(cut)::value>(piece, x, residual, b);
+    });
+  }
+
+
+  template <unsigned int B>
+  template <bool cut>
+  void
+  BlockSmoother<B>::sweep_forward(const Piece &piece,
+                                  NodeValues<B> *x,
+                                  NodeValues<B> *residual,
+                                  const NodeValues<B> *b) const
+  {
+    for (std::size_t i = piece.begin; i < piece.end; ++i)
       {
-        const Lanes<float, B> x_i = solve_diagonal(i, b[i].lanes - row_product<1>(i, x));
+        const std::size_t begin = pattern.template inner_start<cut>(i),
+                          end   = pattern.row_start[i + 1];
+
+        const Lanes<float, B> x_i = solve_diagonal(i, b[i].lanes - row_product<1>(begin, end, x));
         x[i].lanes                = x_i;
         residual[i].lanes         = Lanes<float, B>{};
-        add_transposed(i, -x_i, residual);
+        add_transposed(begin, end, -x_i, residual);
       }
   }
 
@@ -289,8 +349,12 @@ namespace Supple
   {
     for (const RemoteSum &entry : remote)
       residual[entry.node].lanes += entry.sum.lanes * x[entry.node].lanes;
-    for (std::size_t i = pattern.n_owned; i < pattern.n_local; ++i)
-      add_transposed(i, -x[i].lanes, residual);
+    pattern.for_outer_entries(
+      [=](const std::size_t i, const std::size_t begin, const std::size_t end) {
+        add_transposed(begin, end, -x[i].lanes, residual);
+        if (i < pattern.n_owned)
+          residual[i].lanes -= row_product<0>(begin, end, x);
+      });
   }
 
 
@@ -298,11 +362,24 @@ namespace Supple
   void
   BlockSmoother<B>::backward(NodeValues<B> *x, NodeValues<B> *b) const
   {
-    for (std::size_t i = pattern.n_owned; i-- > 0;)
+    for_pieces(
+      [=](const Piece &piece, const auto cut) { sweep_back<decltype(cut)::value>(piece, x, b); });
+  }
+
+
+  template <unsigned int B>
+  template <bool cut>
+  void
+  BlockSmoother<B>::sweep_back(const Piece &piece, NodeValues<B> *x, NodeValues<B> *b) const
+  {
+    for (std::size_t i = piece.end; i-- > piece.begin;)
       {
-        const Lanes<float, B> x_i = solve_diagonal(i, b[i].lanes - row_product<-1>(i, x));
+        const std::size_t begin = pattern.template inner_start<cut>(i),
+                          end   = pattern.row_start[i + 1];
+
+        const Lanes<float, B> x_i = solve_diagonal(i, b[i].lanes - row_product<-1>(begin, end, x));
         x[i].lanes                = x_i;
-        add_transposed(i, -x_i, b);
+        add_transposed(begin, end, -x_i, b);
       }
   }
 
@@ -315,15 +392,37 @@ namespace Supple
                              NodeValues<B> *change,
                              NodeValues<B> *product) const
   {
-    std::size_t row = pattern.n_owned; // of the product, all that follow are done
-    for (std::size_t i = pattern.n_owned; i-- > 0;)
+    for_pieces([=](const Piece &piece, const auto cut) {
+      sweep_back<decltype(cut)::value>(piece, x, b, rhs, change, product);
+    });
+  }
+
+
+  template <unsigned int B>
+  template <bool cut>
+  void
+  BlockSmoother<B>::sweep_back(const Piece &piece,
+                               NodeValues<B> *x,
+                               NodeValues<B> *b,
+                               const NodeValues<B> *rhs,
+                               NodeValues<B> *change,
+                               NodeValues<B> *product) const
+  {
+    std::size_t row = piece.end; // of the product, all that follow are done
+    for (std::size_t i = piece.end; i-- > piece.begin;)
       {
-        const Lanes<float, B> x_i = solve_diagonal(i, b[i].lanes - row_product<-1>(i, x));
+        const std::size_t begin = pattern.template inner_start<cut>(i),
+                          end   = pattern.row_start[i + 1];
+
+        const Lanes<float, B> x_i = solve_diagonal(i, b[i].lanes - row_product<-1>(begin, end, x));
         change[i].lanes           = x[i].lanes - x_i;
         x[i].lanes                = x_i;
-        add_transposed(i, -x_i, b);
-        for (; row > i && first_column(row - 1) >= i; --row)
-          product[row - 1].lanes = rhs[row - 1].lanes - row_product<0>(row - 1, change);
+        add_transposed(begin, end, -x_i, b);
+        for (; row > i && first_column<cut>(row - 1) >= i; --row)
+          product[row - 1].lanes =
+            rhs[row - 1].lanes - row_product<0>(pattern.template inner_start<cut>(row - 1),
+                                                pattern.row_start[row],
+                                                change);
       }
   }
 

@@ -3,6 +3,7 @@
 #include <supple/error.h>
 #include <supple/expression.h>
 
+#include <deal.II/base/multithread_info.h>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
@@ -14,15 +15,32 @@ namespace Supple
 {
   using namespace dealii;
 
+  namespace
+  {
+    // Of one thread, at the least.
+    constexpr std::size_t least_cells = 8000;
+
+
+    unsigned int
+    threads_for(const std::size_t n_cells, const SolverParameters &parameters)
+    {
+      const std::size_t sensible = std::max<std::size_t>(1, n_cells / least_cells);
+      return std::min<std::size_t>(parameters.threads, sensible);
+    }
+  } // namespace
+
+
   Body::Body(const Mesh &mesh, const Parameters &parameters)
     : mesh(mesh)
     , rotation(parameters.corotation.rotation)
     , partitioner(mesh.parts->partitioner)
+    , n_threads(threads_for(mesh.parts->cells.size(), parameters.solver))
     , n_owned(mesh.parts->n_owned)
     , n_local(mesh.parts->n_local)
     , positions(mesh.parts->positions)
     , serial_vertex(mesh.parts->serial_vertex)
   {
+    MultithreadInfo::set_thread_limit(n_threads); // deal.II's vectors have as many
     collect_cells(parameters);
   }
 
@@ -87,7 +105,8 @@ namespace Supple
                                     known_cells,
                                     parameters.material.lumped,
                                     parameters.material.vertex_mass,
-                                    mesh.section);
+                                    mesh.section,
+                                    n_threads);
     if (cured)
       patches = std::make_unique<VolumetricPatches>(*cells,
                                                     patch_cells,

@@ -72,7 +72,8 @@ namespace Supple
                const std::vector<Cell> &cells,
                const bool lumped_mass,
                const double vertex_mass,
-               const Section &section)
+               const Section &section,
+               const unsigned int n_threads)
     : n_cells(cells.size())
     , n_owned(n_owned)
     , lumped_mass(lumped_mass)
@@ -88,6 +89,43 @@ namespace Supple
       hoops.resize(batches.size());
     for (std::size_t c = 0; c < n_cells; ++c)
       add_cell(c, cells[c]);
+    cut_into_chunks(n_threads);
+  }
+
+
+  void
+  Cells::cut_into_chunks(const unsigned int n_threads)
+  {
+    chunk_start = {0, batches.size()};
+    for (std::size_t n_chunks = 2 * n_threads; n_chunks > 2; n_chunks -= 2)
+      {
+        chunk_start.clear();
+        for (std::size_t chunk = 0; chunk <= n_chunks; ++chunk)
+          chunk_start.push_back(chunk * batches.size() / n_chunks);
+        if (chunks_are_apart())
+          return;
+      }
+    chunk_start = {0, batches.size()};
+  }
+
+
+  bool
+  Cells::chunks_are_apart() const
+  {
+    constexpr std::size_t none = -1;
+    std::array<std::vector<std::size_t>, 2> chunk_of_node; // of even and of odd number
+    chunk_of_node.fill(std::vector<std::size_t>(positions.size(), none));
+    for (std::size_t chunk = 0; chunk + 1 < chunk_start.size(); ++chunk)
+      for (std::size_t b = chunk_start[chunk]; b < chunk_start[chunk + 1]; ++b)
+        for (const auto &nodes_of_lanes : batches[b].nodes)
+          for (const std::uint32_t node : nodes_of_lanes) // of empty lanes too: zero is added there
+            {
+              std::size_t &known = chunk_of_node[chunk % 2][node];
+              if (known != none && known != chunk)
+                return false;
+              known = chunk;
+            }
+    return true;
   }
 
 
@@ -144,20 +182,28 @@ namespace Supple
   {
     slots.clear();
     resize_in_huge_pages(slots, batches.size());
+    std::size_t chunk = 0;
     for (std::size_t b = 0; b < batches.size(); ++b)
       for (unsigned int lane = 0; lane < n_lanes; ++lane)
         {
-          const bool empty  = b * n_lanes + lane >= n_cells;
-          const auto node   = [&](const unsigned int a) { return batches[b].nodes[a][lane]; };
-          const auto exists = [&](const unsigned int a) { return !empty && a < n_nodes; };
+          while (b >= chunk_start[chunk + 1])
+            ++chunk;
+          const std::size_t spare = chunk / 2; // that of its thread
+          const bool empty        = b * n_lanes + lane >= n_cells;
+          const auto node         = [&](const unsigned int a) { return batches[b].nodes[a][lane]; };
+          const auto exists       = [&](const unsigned int a) { return !empty && a < n_nodes; };
           for (unsigned int a = 0; a < 4; ++a)
             slots[b].diagonal[a][lane] =
-              exists(a) && node(a) < pattern.n_owned ? node(a) : pattern.n_owned;
+              exists(a) && node(a) < pattern.n_owned ? node(a) : pattern.n_owned + spare;
           for (unsigned int p = 0; p < 6; ++p)
-            slots[b].lower[p][lane] =
-              exists(lower_pairs[p][0])
-                ? pattern.position(node(lower_pairs[p][0]), node(lower_pairs[p][1]))
-                : pattern.n_entries();
+            {
+              slots[b].lower[p][lane] =
+                exists(lower_pairs[p][0])
+                  ? pattern.position(node(lower_pairs[p][0]), node(lower_pairs[p][1]))
+                  : pattern.n_entries();
+              if (slots[b].lower[p][lane] == pattern.n_entries())
+                slots[b].lower[p][lane] += spare;
+            }
         }
   }
 
@@ -309,7 +355,7 @@ namespace Supple
   void
   Cells::add_internal_force(const double *displacement, double *force) const
   {
-    for_batches([&](const std::size_t b) {
+    for_batches_in_turn([&](const std::size_t b) {
       add_stress_divergence(b, strain(b, deformation_gradient(b, displacement)), force);
     });
   }
@@ -318,7 +364,7 @@ namespace Supple
   void
   Cells::add_stiffness_product(const double *w, double *y) const
   {
-    for_batches([&](const std::size_t b) {
+    for_batches_in_turn([&](const std::size_t b) {
       add_stress_divergence(b, rotated_back(b, gradient(b, gather(batches[b], w))), y);
     });
   }
@@ -394,8 +440,8 @@ namespace Supple
   void
   Cells::add_mass_product(const double *w, double *y) const
   {
-    for (std::size_t b = 0; b < batches.size(); ++b)
-      scatter(batches[b], mass_product(b, gather(batches[b], w)), y);
+    for_batches_in_turn(
+      [&](const std::size_t b) { scatter(batches[b], mass_product(b, gather(batches[b], w)), y); });
     if (vertex_mass > 0.)
       for (std::size_t dof = 0; dof < 3 * positions.size(); ++dof)
         y[dof] += vertex_mass * w[dof];

@@ -242,7 +242,7 @@ namespace Supple
                      SymmetricBlockMatrix &A,
                      const double added_bulk) const
   {
-    for_batches([&](const std::size_t b) {
+    for_batches_in_turn([&](const std::size_t b) {
       ask_for_next(slots, b);
       add_tangent_of_batch(b, mass_factor, stiffness_factor, rotation_factor, added_bulk, A);
     });

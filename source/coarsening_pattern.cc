@@ -40,6 +40,8 @@ namespace Supple
     scale.resize(fine.pattern.n_local);
     tentative.resize(fine.pattern.n_local);
     coarse.modes.resize(36 * static_cast<std::size_t>(coarse.numbers.n_owned));
+    partial_sums.assign(fine.pattern.n_pieces() - 1,
+                        std::vector<NodeValues<6>>(coarse.numbers.n_local()));
   }
 
 

@@ -241,15 +241,12 @@ namespace Supple
     void
     sum_over_all(std::vector<CoarseMatrix::Block> &blocks, const MPI_Comm communicator)
     {
-      const std::size_t block_size = sizeof(CoarseMatrix::Block) / sizeof(double);
-      const std::size_t at_once    = 1000000; // MPI counts in int
-      for (std::size_t first = 0; first < blocks.size(); first += at_once)
-        MPI_Allreduce(MPI_IN_PLACE,
-                      &blocks[first],
-                      block_size * std::min(at_once, blocks.size() - first),
-                      MPI_DOUBLE,
-                      MPI_SUM,
-                      communicator);
+      MPI_Allreduce(MPI_IN_PLACE,
+                    blocks.data(),
+                    sizeof(CoarseMatrix::Block) / sizeof(double) * blocks.size(),
+                    MPI_DOUBLE,
+                    MPI_SUM,
+                    communicator);
     }
   } // namespace
 
@@ -349,13 +346,12 @@ namespace Supple
 
   template <unsigned int B>
   void
-  Coarsening<B>::restrict_residual(NodeValues<6> *coarse_values,
+  Coarsening<B>::restrict_residual(const SymmetricPattern::Piece &piece,
+                                   NodeValues<6> *coarse_values,
                                    const NodeValues<B> *residual) const
   {
-    const std::size_t n_coarse = coarse.numbers.n_local();
-    for (std::size_t a = 0; a < n_coarse; ++a)
-      coarse_values[a].lanes = Lanes<float, 6>{};
-    for (std::size_t node = 0; node < fine.pattern.n_owned; ++node)
+    std::fill(coarse_values, coarse_values + coarse.numbers.n_local(), NodeValues<6>());
+    for (std::size_t node = piece.begin; node < piece.end; ++node)
       {
         Lanes<float, 6> factor[B];
         for (unsigned int i = 0; i < B; ++i)
@@ -370,12 +366,27 @@ namespace Supple
             coarse_values[column[q]].lanes += sum;
           }
       }
+  }
+
+
+  template <unsigned int B>
+  void
+  Coarsening<B>::restrict_residual(NodeValues<6> *coarse_values, const NodeValues<B> *residual)
+  {
+    fine.pattern.for_pieces([&](const SymmetricPattern::Piece &piece) {
+      NodeValues<6> *const sums =
+        piece.number == 0 ? coarse_values : partial_sums[piece.number - 1].data();
+      restrict_residual(piece, sums, residual);
+    });
+    for (const std::vector<NodeValues<6>> &sums : partial_sums)
+      for (std::size_t a = 0; a < sums.size(); ++a)
+        coarse_values[a].lanes += sums[a].lanes;
     if (coarse.halo)
       coarse.halo->add_ghosts(coarse_values);
     if (replicates())
       MPI_Allreduce(MPI_IN_PLACE,
                     coarse_values,
-                    n_coarse * sizeof(NodeValues<6>) / sizeof(float),
+                    coarse.numbers.n_local() * sizeof(NodeValues<6>) / sizeof(float),
                     MPI_FLOAT,
                     MPI_SUM,
                     halo->communicator());
@@ -388,7 +399,21 @@ namespace Supple
   {
     if (coarse.halo)
       coarse.halo->update(coarse_values);
-    for (std::size_t node = 0; node < fine.pattern.n_local; ++node)
+    fine.pattern.for_pieces([=](const SymmetricPattern::Piece &piece) {
+      add_correction(piece.begin, piece.end, x, coarse_values);
+    });
+    add_correction(fine.pattern.n_owned, fine.pattern.n_local, x, coarse_values);
+  }
+
+
+  template <unsigned int B>
+  void
+  Coarsening<B>::add_correction(const std::size_t begin,
+                                const std::size_t end,
+                                NodeValues<B> *x,
+                                const NodeValues<6> *coarse_values) const
+  {
+    for (std::size_t node = begin; node < end; ++node)
       {
         Lanes<float, 6> sums[B]{};
         for (std::uint32_t q = row_start[node]; q < row_start[node + 1]; ++q)

@@ -30,44 +30,47 @@ namespace Supple
     for (std::size_t k = 0; k < shared.size(); ++k)
       std::memcpy(&buffer[k * size], nodal + shared[k] * size, size);
 
-    const int tag = 77;
-    auto request  = requests.data();
-    char *ghosts  = nodal + n_owned * size;
-    for (const auto &[process, n_indices] : indices->ghost_targets())
-      {
-        const std::size_t n_bytes = n_indices / n_per_node * size;
-        MPI_Irecv(ghosts, n_bytes, MPI_BYTE, process, tag, communicator(), request++);
-        ghosts += n_bytes;
-      }
-    const char *outgoing = buffer.data();
-    for (const auto &[process, n_indices] : indices->import_targets())
-      {
-        const std::size_t n_bytes = n_indices / n_per_node * size;
-        MPI_Isend(outgoing, n_bytes, MPI_BYTE, process, tag, communicator(), request++);
-        outgoing += n_bytes;
-      }
-    MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+    exchange(indices->ghost_targets(),
+             nodal + n_owned * size,
+             indices->import_targets(),
+             buffer.data(),
+             size);
   }
 
 
   void
   Halo::fetch_ghosts(const char *nodal, const std::size_t size) const
   {
-    const int tag  = 78;
-    auto request   = requests.data();
-    char *incoming = buffer.data();
-    for (const auto &[process, n_indices] : indices->import_targets())
+    if (buffer.size() < shared.size() * size)
+      buffer.resize(shared.size() * size);
+    exchange(indices->import_targets(),
+             buffer.data(),
+             indices->ghost_targets(),
+             nodal + n_owned * size,
+             size);
+  }
+
+
+  void
+  Halo::exchange(const Targets &senders,
+                 char *incoming,
+                 const Targets &receivers,
+                 const char *outgoing,
+                 const std::size_t size) const
+  {
+    const int tag = 77;
+    auto request  = requests.data();
+    for (const auto &[process, n_indices] : senders)
       {
         const std::size_t n_bytes = n_indices / n_per_node * size;
         MPI_Irecv(incoming, n_bytes, MPI_BYTE, process, tag, communicator(), request++);
         incoming += n_bytes;
       }
-    const char *ghosts = nodal + n_owned * size;
-    for (const auto &[process, n_indices] : indices->ghost_targets())
+    for (const auto &[process, n_indices] : receivers)
       {
         const std::size_t n_bytes = n_indices / n_per_node * size;
-        MPI_Isend(ghosts, n_bytes, MPI_BYTE, process, tag, communicator(), request++);
-        ghosts += n_bytes;
+        MPI_Isend(outgoing, n_bytes, MPI_BYTE, process, tag, communicator(), request++);
+        outgoing += n_bytes;
       }
     MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
   }

@@ -226,6 +226,7 @@ namespace Supple
   }
 
 
+  /** Material/By id stays open: the lower layer's Poisson ratio is taken from there. */
   void
   IdentificationParameters::check_command_line() const
   {
@@ -233,9 +234,7 @@ namespace Supple
       for (const auto &[entry, set_by] :
            {std::make_pair("Time/Steps", "Scene"), std::make_pair("Mesh/Layers", "Thicknesses")})
         if (override.entry() == entry)
-          throw InputError(override.place + " \"" + override.text +
-                           "\": it would change nothing, for each run of the identification sets " +
-                           entry + " (" + place(set_by) + ").");
+          override.refuse("identification", place(set_by));
   }
 
 

@@ -53,6 +53,7 @@ namespace Supple
         pattern.column.insert(pattern.column.end(), row.begin(), row.end());
         pattern.row_start.push_back(pattern.column.size());
       }
+    pattern.cut(body.n_threads);
     return pattern;
   }
 
@@ -202,48 +203,63 @@ namespace Supple
 
   namespace
   {
-    /** y = s (A - m M - d I) x in one sweep. Arrays as in SymmetricBlockMatrix::vmult(). */
-    void
-    stiffness_product(const SymmetricBlockMatrix &A,
-                      const SymmetricScalarMatrix &M,
-                      const double m,
-                      const double d,
-                      const double s,
-                      double *y,
-                      const double *x)
+    /** The product with s (A - m M - d I), row by row. Arrays as in
+     * SymmetricBlockMatrix::vmult(). */
+    struct StiffnessProduct
     {
-      const SymmetricPattern &pattern = A.pattern;
-      for (std::size_t i = 0; i < pattern.n_local; ++i)
-        {
-          const bool owned = i < pattern.n_owned;
-          const double xi[3]{x[3 * i], x[3 * i + 1], x[3 * i + 2]};
-          const double scaled[3]{s * xi[0], s * xi[1], s * xi[2]};
-          double sum[3]{};
-          if (owned)
+      const SymmetricBlockMatrix &A;
+      const SymmetricScalarMatrix &M;
+      const double m, d, s;
+      double *y;
+      const double *x;
+
+      /** sum += s^-1 (entries of the row) x, and the transposed ones to y. */
+      void
+      add(const std::size_t i,
+          const std::size_t begin,
+          const std::size_t end,
+          double (&sum)[3]) const
+      {
+        const double scaled[3]{s * x[3 * i], s * x[3 * i + 1], s * x[3 * i + 2]};
+        for (std::size_t k = begin; k < end; ++k)
+          {
+            const double *block = &A.lower[9 * k];
+            ask_for_line_ahead(block);
+            const double mass = m * M.lower[k];
+            const double *xj  = x + 3 * static_cast<std::size_t>(A.pattern.column[k]);
+            double *yj        = y + 3 * static_cast<std::size_t>(A.pattern.column[k]);
             for (unsigned int a = 0; a < 3; ++a)
               for (unsigned int b = 0; b < 3; ++b)
-                sum[a] +=
-                  (A.diagonal[9 * i + 3 * a + b] - (a == b ? m * M.diagonal[i] + d : 0.)) * xi[b];
-          for (std::size_t k = pattern.row_start[i]; k < pattern.row_start[i + 1]; ++k)
-            {
-              const double *block = &A.lower[9 * k];
-              ask_for_line_ahead(block);
-              const double mass = m * M.lower[k];
-              const double *xj  = x + 3 * static_cast<std::size_t>(pattern.column[k]);
-              double *yj        = y + 3 * static_cast<std::size_t>(pattern.column[k]);
-              for (unsigned int a = 0; a < 3; ++a)
-                for (unsigned int b = 0; b < 3; ++b)
-                  {
-                    const double entry = block[3 * a + b] - (a == b ? mass : 0.);
-                    sum[a] += entry * xj[b];
-                    yj[b] += entry * scaled[a];
-                  }
-            }
-          if (owned)
-            for (unsigned int a = 0; a < 3; ++a)
-              y[3 * i + a] = s * sum[a];
-        }
-    }
+                {
+                  const double entry = block[3 * a + b] - (a == b ? mass : 0.);
+                  sum[a] += entry * xj[b];
+                  yj[b] += entry * scaled[a];
+                }
+          }
+      }
+
+      void
+      set_row(const std::size_t i, const std::size_t begin, const std::size_t end) const
+      {
+        double sum[3]{};
+        for (unsigned int a = 0; a < 3; ++a)
+          for (unsigned int b = 0; b < 3; ++b)
+            sum[a] += (A.diagonal[9 * i + 3 * a + b] - (a == b ? m * M.diagonal[i] + d : 0.)) *
+                      x[3 * i + b];
+        add(i, begin, end, sum);
+        for (unsigned int a = 0; a < 3; ++a)
+          y[3 * i + a] = s * sum[a];
+      }
+
+      void
+      add_to_row(const std::size_t i, const std::size_t begin, const std::size_t end) const
+      {
+        double sum[3]{};
+        add(i, begin, end, sum);
+        for (unsigned int a = 0; a < 3 && i < A.pattern.n_owned; ++a)
+          y[3 * i + a] += s * sum[a];
+      }
+    };
   } // namespace
 
 
@@ -255,7 +271,16 @@ namespace Supple
       {
         // What is lost where M is much larger than K' is round-off of M x / gamma.
         const double scale = 1. / factors.stiffness;
-        stiffness_product(A, *M, factors.mass, factors.diagonal, scale, y.begin(), values.data());
+        const StiffnessProduct product{
+          A, *M, factors.mass, factors.diagonal, scale, y.begin(), values.data()};
+        pattern.for_inner_entries(
+          [&product](const std::size_t i, const std::size_t begin, const std::size_t end) {
+            product.set_row(i, begin, end);
+          });
+        pattern.for_outer_entries(
+          [&product](const std::size_t i, const std::size_t begin, const std::size_t end) {
+            product.add_to_row(i, begin, end);
+          });
         if (body.patches)
           body.patches->add_product(1., values.data(), y.begin());
       }

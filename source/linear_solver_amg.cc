@@ -82,33 +82,28 @@ namespace Supple
     };
 
 
-    /** The sum of what summand(node) gives for each node, in single precision over a few nodes at a
-     * time. */
+    using Piece = SymmetricPattern::Piece;
+
+
+    /** The sum of what summand(node) gives for each node of a piece, in single precision over a few
+     * nodes at a time. */
     template <class Summand>
     double
-    sum_over_nodes(const std::size_t n, const Summand &summand)
+    sum_over_nodes(const Piece &piece, const Summand &summand)
     {
       constexpr std::size_t at_once = 128;
 
       double sum = 0.;
-      for (std::size_t first = 0; first < n; first += at_once)
+      for (std::size_t first = piece.begin; first < piece.end; first += at_once)
         {
           Lanes<float, 3> part[2]{};
-          const std::size_t end = std::min(n, first + at_once);
+          const std::size_t end = std::min<std::size_t>(piece.end, first + at_once);
           for (std::size_t node = first; node < end; ++node)
             part[node % 2] += summand(node);
           for (unsigned int i = 0; i < 3; ++i)
             sum += double(part[0][i]) + double(part[1][i]);
         }
       return sum;
-    }
-
-
-    double
-    product(const NodeVector &x, const NodeVector &y, const std::size_t n)
-    {
-      return sum_over_nodes(n,
-                            [&](const std::size_t node) { return x[node].lanes * y[node].lanes; });
     }
 
 
@@ -157,6 +152,7 @@ namespace Supple
       AmgSolver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort)
         : IterativeSolver(A, parameters, effort)
         , multigrid(preconditioning_matrix.get(), A.body.partitioner)
+        , pattern(A.matrix().pattern)
         , n_owned(A.body.n_owned)
         , correction(A.body.n_local)
         , r(A.body.n_local)
@@ -303,9 +299,11 @@ namespace Supple
       add_correction(Vector &x, const double size) const
       {
         const double unit = size * multigrid.scale();
-        for (std::size_t node = 0; node < n_owned; ++node)
-          for (unsigned int i = 0; i < 3; ++i)
-            x.local_element(3 * node + i) += unit * double(correction[node].lanes[i]);
+        pattern.for_pieces([&](const Piece &piece) {
+          for (std::size_t node = piece.begin; node < piece.end; ++node)
+            for (unsigned int i = 0; i < 3; ++i)
+              x.local_element(3 * node + i) += unit * double(correction[node].lanes[i]);
+        });
       }
 
       /**
@@ -321,64 +319,75 @@ namespace Supple
              const double factor,
              const unsigned int limit)
       {
-        for (std::size_t node = 0; node < n_owned; ++node)
-          {
-            for (unsigned int i = 0; i < 3; ++i)
-              r[node].lanes[i] = residual.local_element(3 * node + i) / size;
-            correction[node].lanes = Lanes<float, 3>{};
-          }
-        const double goal_square = factor * factor * sum(product(r, r, n_owned));
+        const double goal_square = factor * factor * take_residual(residual, size);
         for (unsigned int n = 1;; ++n)
           {
             multigrid.apply(z.data(), Az.data(), r.data());
-            const double rho = sum(product(r, z, n_owned));
+            const double rho = product(r, z);
             // The residual that has just been computed anew is not what the recurrence had: then
             // the direction is made conjugate to the last one by definition.
             double beta = 0.;
             if (n > 1)
               beta = rho / last_rho;
             else if (last_curvature > 0.)
-              beta = -sum(product(z, q, n_owned)) / last_curvature;
+              beta = -product(z, q) / last_curvature;
             last_rho            = rho;
             last_curvature      = add_direction(beta);
-            const float alpha   = (n > 1 ? rho : sum(product(p, r, n_owned))) / last_curvature;
+            const float alpha   = (n > 1 ? rho : product(p, r)) / last_curvature;
             const double square = go_along_direction(alpha);
             if (!(square > goal_square) || n >= std::min(limit, single_precision_iterations))
               return n;
           }
       }
 
+      /** r = residual / size, correction = 0. @return r.r */
+      double
+      take_residual(const Vector &residual, const double size)
+      {
+        return sum([&](const std::size_t node) {
+          for (unsigned int i = 0; i < 3; ++i)
+            r[node].lanes[i] = residual.local_element(3 * node + i) / size;
+          correction[node].lanes = Lanes<float, 3>{};
+          return r[node].lanes * r[node].lanes;
+        });
+      }
+
       /** p = z + beta p, and q = A p with it. @return p.q */
       double
       add_direction(const float beta)
       {
-        if (beta == 0.f) // whatever is left of an earlier, perhaps failed solution
-          {
-            std::copy_n(z.begin(), n_owned, p.begin());
-            std::copy_n(Az.begin(), n_owned, q.begin());
-            return sum(product(p, q, n_owned));
-          }
-        return sum(sum_over_nodes(n_owned, [&](const std::size_t node) {
-          p[node].lanes = z[node].lanes + beta * p[node].lanes;
-          q[node].lanes = Az[node].lanes + beta * q[node].lanes;
+        const bool anew = beta == 0.f; // whatever is left of an earlier, perhaps failed solution
+        return sum([&](const std::size_t node) {
+          p[node].lanes = anew ? z[node].lanes : z[node].lanes + beta * p[node].lanes;
+          q[node].lanes = anew ? Az[node].lanes : Az[node].lanes + beta * q[node].lanes;
           return p[node].lanes * q[node].lanes;
-        }));
+        });
       }
 
       /** correction += alpha p, and r with it. @return r.r */
       double
       go_along_direction(const float alpha)
       {
-        return sum(sum_over_nodes(n_owned, [&](const std::size_t node) {
+        return sum([&](const std::size_t node) {
           correction[node].lanes += alpha * p[node].lanes;
           r[node].lanes -= alpha * q[node].lanes;
           return r[node].lanes * r[node].lanes;
-        }));
+        });
       }
 
       double
-      sum(const double part) const
+      product(const NodeVector &x, const NodeVector &y) const
       {
+        return sum([&](const std::size_t node) { return x[node].lanes * y[node].lanes; });
+      }
+
+      /** The sum of summand(node) over the nodes of all processes. */
+      template <class Summand>
+      double
+      sum(const Summand &summand) const
+      {
+        const double part = pattern.sum_over_pieces(
+          [&](const Piece &piece) { return sum_over_nodes(piece, summand); });
         return multigrid.halo.single() ? part : Utilities::MPI::sum(part, A.body.mesh.communicator);
       }
 
@@ -387,6 +396,7 @@ namespace Supple
       bool built              = false;
       double factor_of_levels = 0.; ///< of the stiffness in the matrix of the coarse levels
       double reduction        = largest_reduction; ///< until it turns out to be too much
+      const SymmetricPattern &pattern;
       const std::size_t n_owned;
       std::vector<double> rigid_motions;
       NodeVector correction, r, z, Az, p, q;

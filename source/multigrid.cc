@@ -203,25 +203,20 @@ namespace Supple
   Multigrid::apply(NodeValues<3> *z, NodeValues<3> *product, const NodeValues<3> *r)
   {
     finest.forward(z, residual.data(), r);
-    if (!halo.single())
-      {
-        halo.update(z);
-        finest.subtract_remote(residual.data(), z);
-      }
+    halo.update(z);
+    finest.subtract_remote(residual.data(), z);
     if (!levels.empty())
       {
         coarsening->restrict_residual(levels[0]->b.data(), residual.data());
         cycle(0);
         coarsening->add_correction(z, levels[0]->x.data());
       }
-    std::copy(r, r + A.pattern.n_owned, residual.begin());
-    if (!halo.single())
-      finest.subtract_remote(residual.data(), z);
+    A.pattern.for_pieces([&](const SymmetricPattern::Piece &piece) {
+      std::copy(r + piece.begin, r + piece.end, residual.begin() + piece.begin);
+    });
+    finest.subtract_remote(residual.data(), z);
     finest.backward(z, residual.data(), r, difference.data(), product);
-    if (!halo.single())
-      {
-        halo.update(difference.data());
-        finest.subtract_remote(product, difference.data());
-      }
+    halo.update(difference.data());
+    finest.subtract_remote(product, difference.data());
   }
 } // namespace Supple

@@ -211,6 +211,14 @@ namespace Supple
   }
 
 
+  void
+  Override::refuse(const std::string &task, const std::string &set_at) const
+  {
+    throw InputError(place + " \"" + text + "\": it would change nothing, for each run of the " +
+                     task + " sets " + entry() + " (" + set_at + ").");
+  }
+
+
   ParameterFile::ParameterFile(const std::string &file)
     : file(file)
   {

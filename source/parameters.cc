@@ -286,6 +286,15 @@ namespace Supple
         Range::whole_number(1),
         "Conjugate gradients that need more for one solution have failed: then auto takes another "
         "solver, and one that was asked for by name ends the run.");
+    add(prm,
+        "Threads",
+        threads,
+        "none",
+        Range::whole_number(1),
+        "At most, of each process, for cells, matrices and the finest level of multigrid; "
+        "summary.json says how many there were. Each has 8000 cells at least, so that small bodies "
+        "stay on one. The result depends on their number as it does on that of processes, within "
+        "the tolerance, and not on the time.");
     prm.leave_subsection();
   }
 
@@ -460,7 +469,7 @@ namespace Supple
         Range::at_least(0),
         "A checkpoint is written after so much time on the clock; 0: not by the clock. Where "
         "either is set, Ctrl-C and SIGTERM write one too, unless Corotation/Warp tolerance is "
-        "greater than 0.");
+        "greater than 0 and Every alone is set: then the run goes on from the last one.");
     add_choice(
       prm,
       "Resume",

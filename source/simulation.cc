@@ -363,10 +363,11 @@ namespace Supple
         if (!finished() && interrupt.requested(communicator))
           {
             progress.clear();
-            // The operator forgets at a checkpoint. Where its cells keep their warp, only that of a
-            // step at which an uninterrupted run forgets too lets the run go on as if it were one.
-            if (parameters.checkpoint.wanted() && !folder.empty() &&
-                parameters.corotation.warp_tolerance == 0.)
+            // The operator forgets at a checkpoint. Where its cells keep their warp and checkpoints
+            // are due after steps, only at these an uninterrupted run forgets too.
+            const bool repeats =
+              parameters.corotation.warp_tolerance > 0. && parameters.checkpoint.minutes == 0.;
+            if (parameters.checkpoint.wanted() && !folder.empty() && !repeats)
               write_checkpoint();
             finish("interrupted");
             throw InterruptedError("Interrupted after step " + std::to_string(step) + "." +

@@ -122,9 +122,7 @@ namespace Supple
         };
         if (std::all_of(runs.begin(), runs.end(), sets_it) &&
             std::all_of(references.begin(), references.end(), sets_it))
-          throw InputError(override.place + " \"" + override.text +
-                           "\": it would change nothing, for each run of the study sets " + entry +
-                           " (" + last_of(runs.front().overrides, entry)->place + ").");
+          override.refuse("study", last_of(runs.front().overrides, entry)->place);
       }
   }
 

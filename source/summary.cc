@@ -159,7 +159,9 @@ namespace Supple
     json["cell_size"] = cell_size(model.body.mesh);
     json["held"]      = model.constraints.n_held;
     json["ranks"]     = dealii::Utilities::MPI::n_mpi_processes(model.body.mesh.communicator);
-    json["method"]    = integrator;
+    json["threads"] =
+      dealii::Utilities::MPI::max(model.body.n_threads, model.body.mesh.communicator);
+    json["method"] = integrator;
     if (stable_step)
       json["stable_step"] = {{"step", stable_step->step},
                              {"frequency", stable_step->frequency},

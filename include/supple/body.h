@@ -27,6 +27,7 @@ namespace Supple
     const RotationMethod rotation;
     const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
 
+    const unsigned int n_threads;                        ///< of this process, see threads.h
     const unsigned int n_owned;                          ///< nodes
     const unsigned int n_local;                          ///< nodes, ghosts included
     const std::vector<std::array<double, 3>> &positions; ///< at rest [m], of local nodes

@@ -7,6 +7,7 @@
 #include <supple/rotation.h>
 #include <supple/section.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -118,15 +119,18 @@ namespace Supple
      * @param positions   rest positions [m] of the local nodes, of which the first @p n_owned count
      * in sums
      * @param vertex_mass mass [kg] of each node beside that of the cells
+     * @param n_threads   at most, among which cells are shared out
      */
     Cells(const std::vector<std::array<double, 3>> &positions,
           unsigned int n_owned,
           const std::vector<Cell> &cells,
           bool lumped_mass,
           double vertex_mass,
-          const Section &section = Section());
+          const Section &section = Section(),
+          unsigned int n_threads = 1);
 
-    /** Finds the place of each cell's blocks in matrices with this pattern. */
+    /** Finds the place of each cell's blocks in matrices with this pattern, which has a piece for
+     * each thread. */
     void
     connect(const SymmetricPattern &pattern);
 
@@ -272,12 +276,26 @@ namespace Supple
     static void
     scatter(const Batch &batch, const NodalPack &values, double *nodal);
 
-    /** action(b) for all batches, in a sweep that asks for their gradients and rotations ahead. */
+    void
+    add_cell(std::size_t number, const Cell &cell);
+
+    /**
+     * Cuts the batches into two chunks in a row for each thread, such that those of even number
+     * share no nodes with each other, and neither do those of odd number. Where cells next to each
+     * other are far apart in number this takes fewer threads, or one.
+     */
+    void
+    cut_into_chunks(unsigned int n_threads);
+
+    bool
+    chunks_are_apart() const;
+
+    /** action(batch) for those of a chunk, in a sweep that asks for what comes next. */
     template <class Action>
     void
-    for_batches(const Action &action) const
+    for_chunk(const unsigned int chunk, const Action &action) const
     {
-      for (std::size_t b = 0; b < batches.size(); ++b)
+      for (std::size_t b = chunk_start[chunk]; b < chunk_start[chunk + 1]; ++b)
         {
           ask_for_next(batches, b);
           ask_for_next(rotations, b);
@@ -285,8 +303,26 @@ namespace Supple
         }
     }
 
+    /** action(batch) for batches that write to what is their own, on several threads. */
+    template <class Action>
     void
-    add_cell(std::size_t number, const Cell &cell);
+    for_batches(const Action &action) const
+    {
+      run_tasks(chunk_start.size() - 1,
+                [&](const unsigned int chunk) { for_chunk(chunk, action); });
+    }
+
+    /** The same for batches that add to nodes and to their couplings: on several threads those of
+     * even chunks, and then those of odd ones. */
+    template <class Action>
+    void
+    for_batches_in_turn(const Action &action) const
+    {
+      const unsigned int n_chunks = chunk_start.size() - 1;
+      for (unsigned int parity = 0; parity < std::min(2u, n_chunks); ++parity)
+        run_tasks((n_chunks + 1) / 2,
+                  [&](const unsigned int thread) { for_chunk(2 * thread + parity, action); });
+    }
 
     /** With the hoop strain of an axisymmetric body in the last entry. */
     Matrix3<Pack>
@@ -397,7 +433,8 @@ namespace Supple
     const unsigned int n_nodes; ///< of a cell
     const double pair_share;    ///< what two nodes of a cell share of its mass
     std::vector<Batch> batches;
-    std::vector<Hoop> hoops; ///< of an axisymmetric body, otherwise none
+    std::vector<std::size_t> chunk_start; ///< of batches; one chunk, or two for each thread
+    std::vector<Hoop> hoops;              ///< of an axisymmetric body, otherwise none
     std::vector<Matrix3<Pack>> rotations;
     std::vector<Matrix3<Pack>> kept_rotations;     ///< of the tangent; none: those above
     std::vector<Matrix3<Pack>> rotation_stiffness; ///< V R H R^T; empty for frozen rotations

@@ -52,7 +52,7 @@ namespace Supple
 
     /** coarse_values = P^T residual on owned nodes */
     void
-    restrict_residual(NodeValues<6> *coarse_values, const NodeValues<B> *residual) const;
+    restrict_residual(NodeValues<6> *coarse_values, const NodeValues<B> *residual);
 
     /** x += P coarse_values, at ghosts too. Brings the ghost values of the coarse level. */
     void
@@ -163,6 +163,19 @@ namespace Supple
     void
     set_dead_unknowns(double diagonal_entry);
 
+    /** P^T residual of the nodes of a piece. */
+    void
+    restrict_residual(const SymmetricPattern::Piece &piece,
+                      NodeValues<6> *coarse_values,
+                      const NodeValues<B> *residual) const;
+
+    /** x += P coarse_values of some nodes. */
+    void
+    add_correction(std::size_t begin,
+                   std::size_t end,
+                   NodeValues<B> *x,
+                   const NodeValues<6> *coarse_values) const;
+
     const BlockSmoother<B> &fine;
     const Halo *const halo;
     const Adjacency adjacency;
@@ -186,6 +199,8 @@ namespace Supple
     WideRows prolongation;           ///< an entry of P at hand
     std::vector<char> ghost_records; ///< rows of P on their way between processes
     std::uint32_t longest_row = 0;   ///< of P, over all processes
+
+    std::vector<std::vector<NodeValues<6>>> partial_sums; ///< P^T residual, of pieces but the first
   };
 } // namespace Supple
 

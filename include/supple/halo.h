@@ -70,6 +70,18 @@ namespace Supple
     void
     fetch_ghosts(const char *nodal, std::size_t size) const;
 
+    /** Processes, and how many indices each. */
+    using Targets = std::vector<std::pair<unsigned int, unsigned int>>;
+
+    /** Receives what senders have of @p size bytes a node one after the other, and sends likewise.
+     */
+    void
+    exchange(const Targets &senders,
+             char *incoming,
+             const Targets &receivers,
+             const char *outgoing,
+             std::size_t size) const;
+
     const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> indices;
     const unsigned int n_per_node;
     std::vector<unsigned int> shared; ///< owned nodes that are ghosts elsewhere, process by process

@@ -15,9 +15,14 @@ namespace Supple
     std::string text;
     std::string place = "--set"; ///< or file:line of a study
 
-    /** "Section/Entry", or all of the text if it is none. */
+    /** "Section/Entry"; of another text what is before its "=". */
     std::string
     entry() const;
+
+    /** @throws InputError that it would change nothing, for each run of a @p task sets its entry,
+     * at a place */
+    [[noreturn]] void
+    refuse(const std::string &task, const std::string &set_at) const;
   };
 
 

@@ -349,6 +349,7 @@ namespace Supple
     Method method                = Method::automatic;
     double tolerance             = 1e-8;
     unsigned int iteration_limit = 5000;
+    unsigned int threads         = 1;
 
     void
     declare(dealii::ParameterHandler &prm);
