@@ -101,8 +101,10 @@ namespace Supple
         if (line.rfind("subsection ", 0) == 0)
           section = line.substr(11);
         const bool is_end = section == "Time" && line.find("set Steps ") != std::string::npos;
-        if (section != "Output" && section != "Checkpoint" && !(is_end && dynamic) && line != "" &&
-            line[0] != '#')
+        const bool is_threads =
+          section == "Solver" && line.find("set Threads ") != std::string::npos;
+        if (section != "Output" && section != "Checkpoint" && !(is_end && dynamic) && !is_threads &&
+            line != "" && line[0] != '#')
           kept << line << '\n';
       }
     kept << body.mesh.n_cells << " cells, " << body.mesh.n_vertices << " vertices in "

@@ -35,13 +35,17 @@ compare("three threads, Gram-Schmidt", simulate(1, **{"Corotation/Rotation": "gr
         simulate(3, **{"Corotation/Rotation": "gram-schmidt"}), 1e-8)
 
 with tempfile.TemporaryDirectory() as folder:
-    kept = {**settings, "Solver/Threads": 2, "Checkpoint/Every": 3, "Checkpoint/Resume": "auto"}
-    for name, lengths in {"whole": [6], "parts": [3, 6]}.items():
-        for steps in lengths:
+    kept = {**settings, "Checkpoint/Every": 3, "Checkpoint/Resume": "auto"}
+    for name, parts in {"whole": [(6, 2)], "parts": [(3, 2), (6, 2)], "others": [(3, 2), (6, 1)]}.items():
+        for steps, threads in parts:
             status, _, error = runner.run(runner.BAR, "--quiet", "--output", pathlib.Path(folder) / name,
-                                          *runner.overrides({**kept, "Time/Steps": steps}))
+                                          *runner.overrides({**kept, "Time/Steps": steps, "Solver/Threads": threads}))
             runner.check(status == 0, error)
-    compare("from a checkpoint", *[runner.Results(pathlib.Path(folder) / name) for name in ("whole", "parts")], 1e-12)
+    whole, parts, others = [runner.Results(pathlib.Path(folder) / name) for name in ("whole", "parts", "others")]
+    compare("from a checkpoint", whole, parts, 1e-12)
+    solves = [run.summary()["solver"]["solves"] for run in (whole, others)]
+    runner.check(solves[1] < solves[0], f"the other number of threads began anew: {solves} solutions")
+    compare("from a checkpoint, on one thread", whole, others, 1e-8)
 
 few = runner.simulate(runner.BAR, {"Solver/Threads": 2, "Time/Steps": 2}).summary()["threads"]
 runner.check(few == 1, f"192 tetrahedra on {few} threads")
