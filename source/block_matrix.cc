@@ -146,12 +146,27 @@ namespace Supple
     }
 
 
+    /** y = A x of owned rows: diagonal(i) is what a row begins with, and add(i, begin, end, sum)
+     * adds entries of it to its sum and the transposed ones to y. */
+    template <class Diagonal, class Add>
     void
-    add_to_row(const SymmetricPattern &pattern, const std::size_t i, const Sum &sum, double *y)
+    multiply(const SymmetricPattern &pattern, double *y, const Diagonal &diagonal, const Add &add)
     {
-      if (i < pattern.n_owned)
-        for (unsigned int a = 0; a < 3; ++a)
-          y[3 * i + a] += sum[a];
+      // Row i comes after all rows it adds to, so that y[i] can be set and added to in one sweep.
+      pattern.for_inner_entries(
+        [&](const std::size_t i, const std::size_t begin, const std::size_t end) {
+          Sum sum = diagonal(i);
+          add(i, begin, end, sum);
+          for (unsigned int a = 0; a < 3; ++a)
+            y[3 * i + a] = sum[a];
+        });
+      pattern.for_outer_entries(
+        [&](const std::size_t i, const std::size_t begin, const std::size_t end) {
+          Sum sum{};
+          add(i, begin, end, sum);
+          for (unsigned int a = 0; a < 3 && i < pattern.n_owned; ++a)
+            y[3 * i + a] += sum[a];
+        });
     }
   } // namespace
 
@@ -159,24 +174,18 @@ namespace Supple
   void
   SymmetricBlockMatrix::vmult(double *y, const double *x) const
   {
-    // Row i comes after all rows it adds to, so that y[i] can be set and added to in one sweep.
-    pattern.for_inner_entries(
-      [=](const std::size_t i, const std::size_t begin, const std::size_t end) {
+    multiply(
+      pattern,
+      y,
+      [=](const std::size_t i) {
         const double x0 = x[3 * i], x1 = x[3 * i + 1], x2 = x[3 * i + 2];
         const double *d = &diagonal[9 * i];
-        Sum sum{{d[0] * x0 + d[1] * x1 + d[2] * x2,
-                 d[3] * x0 + d[4] * x1 + d[5] * x2,
-                 d[6] * x0 + d[7] * x1 + d[8] * x2}};
+        return Sum{{d[0] * x0 + d[1] * x1 + d[2] * x2,
+                    d[3] * x0 + d[4] * x1 + d[5] * x2,
+                    d[6] * x0 + d[7] * x1 + d[8] * x2}};
+      },
+      [=](const std::size_t i, const std::size_t begin, const std::size_t end, Sum &sum) {
         add_blocks(*this, i, begin, end, y, x, sum);
-        y[3 * i]     = sum[0];
-        y[3 * i + 1] = sum[1];
-        y[3 * i + 2] = sum[2];
-      });
-    pattern.for_outer_entries(
-      [=](const std::size_t i, const std::size_t begin, const std::size_t end) {
-        Sum sum{};
-        add_blocks(*this, i, begin, end, y, x, sum);
-        add_to_row(pattern, i, sum, y);
       });
   }
 
@@ -192,20 +201,15 @@ namespace Supple
   void
   SymmetricScalarMatrix::vmult(double *y, const double *x) const
   {
-    pattern.for_inner_entries(
-      [=](const std::size_t i, const std::size_t begin, const std::size_t end) {
+    multiply(
+      pattern,
+      y,
+      [=](const std::size_t i) {
         const double d = diagonal[i];
-        Sum sum{{d * x[3 * i], d * x[3 * i + 1], d * x[3 * i + 2]}};
+        return Sum{{d * x[3 * i], d * x[3 * i + 1], d * x[3 * i + 2]}};
+      },
+      [=](const std::size_t i, const std::size_t begin, const std::size_t end, Sum &sum) {
         add_multiples(*this, i, begin, end, y, x, sum);
-        y[3 * i]     = sum[0];
-        y[3 * i + 1] = sum[1];
-        y[3 * i + 2] = sum[2];
-      });
-    pattern.for_outer_entries(
-      [=](const std::size_t i, const std::size_t begin, const std::size_t end) {
-        Sum sum{};
-        add_multiples(*this, i, begin, end, y, x, sum);
-        add_to_row(pattern, i, sum, y);
       });
   }
 } // namespace Supple
