@@ -146,8 +146,8 @@ def picture_problems():
     """doc/modules.dot names every header, perhaps many at once as in *_parameters, and nothing that is not there."""
     named = {name for names in re.findall(r'color="#5b666e">(.*?)</font>', (ROOT / "doc/modules.dot").read_text())
              for name in re.split(r"(?:, ?|<br/>)+", names)}
-    headers = {path.stem for path in (ROOT / "include/supple").glob("*.h")}
-    sources = headers | {path.stem for path in (ROOT / "source").glob("*.cc")}
+    headers = {path.stem for path in (ROOT / "include/supple").rglob("*.h")}
+    sources = headers | {path.stem for path in (ROOT / "source").rglob("*.cc")}
     for header in sorted(headers):
         if not any(fnmatch.fnmatch(header, name) for name in named):
             yield f"doc/modules.dot:1: {header} is missing in the picture of the modules"

@@ -2,8 +2,8 @@
 // is P^T A P, the restriction is the prolongation's transpose, and ghosts have what their owners
 // have.
 
-#include <supple/coarsening.h>
-#include <supple/implicit_operator.h>
+#include <supple/multigrid/coarsening.h>
+#include <supple/solvers/implicit_operator.h>
 
 #include <deal.II/base/mpi.h>
 

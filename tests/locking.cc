@@ -1,8 +1,8 @@
 // What must hold for bodies whose patches of cells resist to changes of volume, whatever the mesh:
 // here boxes and rectangles with displaced inner vertices and a Poisson ratio of 0.499.
 
-#include <supple/patches.h>
-#include <supple/volumetric_patches.h>
+#include <supple/mechanics/volumetric_patches.h>
+#include <supple/mesh/patches.h>
 
 #include <deal.II/base/mpi.h>
 

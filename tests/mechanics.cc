@@ -1,8 +1,8 @@
 // What must hold for linear and corotational tetrahedra whatever the mesh: here a box with
 // displaced inner vertices.
 
-#include <supple/cells.h>
-#include <supple/serial_mesh.h>
+#include <supple/mechanics/cells.h>
+#include <supple/mesh/serial_mesh.h>
 
 #include <Eigen/Dense>
 

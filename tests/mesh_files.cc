@@ -1,9 +1,9 @@
 // A mesh written by Gmsh in each format it knows comes back with its cells, materials and
 // boundaries. What ends the process that reads it does not end this one.
 
-#include <supple/error.h>
-#include <supple/mesh_check.h>
-#include <supple/separate_process.h>
+#include <supple/base/error.h>
+#include <supple/mesh/mesh_check.h>
+#include <supple/mesh/separate_process.h>
 
 #include <cstdio>
 #include <cstdlib>

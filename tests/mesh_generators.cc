@@ -1,7 +1,7 @@
 // Generated bodies: numbers of vertices and cells, volumes, boundaries, and the bar and the vein
 // cell by cell as in data/bar and data/vein.
 
-#include <supple/mesh_check.h>
+#include <supple/mesh/mesh_check.h>
 
 #include <deal.II/base/utilities.h>
 

@@ -1,8 +1,8 @@
 // What must hold for the triangles of plane bodies whatever the mesh: here a rectangle with
 // displaced inner vertices, in plane strain, plane stress and around an axis.
 
-#include <supple/cells.h>
-#include <supple/serial_mesh.h>
+#include <supple/mechanics/cells.h>
+#include <supple/mesh/serial_mesh.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 //
 //   kernels [--benchmark_... of Google Benchmark] SCENE.prm [Section/Entry=value]...
 
-#include <supple/block_smoother.h>
-#include <supple/implicit_operator.h>
+#include <supple/multigrid/block_smoother.h>
+#include <supple/solvers/implicit_operator.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -4,7 +4,7 @@
 //
 //   overhead SCENE.prm [repetitions [integrator | loop]]
 
-#include <supple/time_integrator.h>
+#include <supple/time/time_integrator.h>
 
 #include <algorithm>
 #include <cmath>

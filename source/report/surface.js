@@ -1,4 +1,4 @@
-// The surface of the body in its frames, as source/film.cc packs it.
+// The surface of the body in its frames, as source/output/film.cc packs it.
 
 /** Bytes of base64. */
 function decode(text) {

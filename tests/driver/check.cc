@@ -4,11 +4,11 @@
 // by a copy of this process, whose standard error goes to the file; prints the copy's status as
 // waitpid gives it. Each copy may compute for as many seconds as the first argument says.
 
-#include <supple/command_line.h>
-#include <supple/error.h>
-#include <supple/identification.h>
-#include <supple/simulation.h>
-#include <supple/study.h>
+#include <supple/base/error.h>
+#include <supple/identification/identification.h>
+#include <supple/input/command_line.h>
+#include <supple/run/simulation.h>
+#include <supple/study/study.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>

@@ -4,7 +4,7 @@
 // What the compiled tests share: their outputs tell a limit and not the value, which differs from
 // machine to machine.
 
-#include <supple/block_matrix.h>
+#include <supple/linear_algebra/block_matrix.h>
 
 #include <cmath>
 #include <cstdio>

@@ -4,8 +4,8 @@
  * digits can be compared.
  */
 
-#include <supple/error.h>
-#include <supple/simulation.h>
+#include <supple/base/error.h>
+#include <supple/run/simulation.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>

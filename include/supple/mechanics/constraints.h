@@ -1,0 +1,114 @@
+#ifndef supple_constraints_h
+#define supple_constraints_h
+
+#include <supple/base/expression.h>
+#include <supple/mechanics/body.h>
+
+namespace Supple
+{
+  /** Which degrees of freedom are held, at their place at rest or on a prescribed path. */
+  class Constraints
+  {
+  public:
+    /** @throws InputError if a boundary or region selects nothing */
+    Constraints(const Body &body, const Parameters &parameters);
+
+    /** By local number of the degree of freedom, ghosts included. */
+    bool
+    holds(const unsigned int dof) const
+    {
+      return held[dof];
+    }
+
+    bool
+    holds_node(const unsigned int node) const
+    {
+      return held[3 * node] && held[3 * node + 1] && held[3 * node + 2];
+    }
+
+    /** The held degrees of freedom this process owns, ascending. */
+    const std::vector<unsigned int> &
+    owned() const
+    {
+      return held_owned;
+    }
+
+    /** Sets the held entries to zero. */
+    void
+    set_zero(Vector &vector) const;
+
+    /** Whether anything is held elsewhere than at its place at rest. */
+    bool
+    move() const
+    {
+      return !motions.empty();
+    }
+
+    /** Sets the held entries to their prescribed displacement [m] at a time [s]. */
+    void
+    set_displacement(Vector &displacement, double time) const;
+
+    /** Sets the held entries to the velocity of their prescribed displacement [m/s], by differences
+     * at five times from @p time to @p time + 4 @p interval, of fourth order. */
+    void
+    set_velocity(Vector &velocity, double time, double interval) const;
+
+    /** Whether a prescribed displacement changes between two times [s] by far more than its
+     * velocities there let it: it jumps, or swings to and fro in between. */
+    bool
+    jump(double start, double end) const;
+
+    /** Copies the held entries. */
+    void
+    copy_held(Vector &to, const Vector &from) const;
+
+    unsigned int n_held; ///< degrees of freedom on all processes, without those along z of a
+                         ///< plane body
+
+    std::vector<unsigned int> free_pieces; ///< those of the body of which nothing is held
+
+    /** Which pieces are free: how many cells each has, and where it is; empty if none is, or if
+     * the whole body is free. */
+    std::string
+    free_pieces_in_words() const;
+
+    /** Of a body: six, three in the plane, or one along its axis. */
+    unsigned int n_rigid_motions;
+
+    /** How many of them remain possible. */
+    unsigned int n_free_rigid_motions;
+
+  private:
+    struct Motion
+    {
+      unsigned int direction;
+      Expression displacement;
+      std::vector<unsigned int> nodes; ///< owned
+      dealii::Point<3> sample;         ///< one of the vertices, the same on all processes
+    };
+
+    void
+    add_motion(const MotionParameters &motion,
+               const std::string &section,
+               const Parameters &parameters);
+
+    /** A vertex among those selected. */
+    dealii::Point<3>
+    sample_of(const std::vector<bool> &nodes) const;
+
+    const Body &body;
+    std::vector<Motion> motions;
+
+    /** What the body itself demands, and lists and numbers of all that is held. */
+    void
+    complete();
+
+    unsigned int
+    count_free_rigid_motions() const;
+
+    std::vector<bool> held;
+    std::vector<unsigned int> held_owned;
+  };
+} // namespace Supple
+
+#endif

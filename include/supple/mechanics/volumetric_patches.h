@@ -1,0 +1,130 @@
+#ifndef supple_volumetric_patches_h
+#define supple_volumetric_patches_h
+
+#include <supple/linear_algebra/vector.h>
+#include <supple/mechanics/cells.h>
+
+#include <deal.II/base/partitioner.h>
+
+#include <memory>
+#include <vector>
+
+namespace Supple
+{
+  /** What patches know of a cell. */
+  struct PatchCell
+  {
+    std::vector<unsigned int> nodes; ///< local numbers, three or four
+    unsigned int patch;              ///< number on all processes
+    double bulk;                     ///< bulk modulus kappa [Pa], the same in all of a patch
+  };
+
+
+  /**
+   * The resistance of an almost incompressible body to a change of its volume, by patches of cells
+   * instead of single cells, which would lock (de Souza Neto, Pires & Owen 2005: F-bar patches):
+   *
+   *   W_P = sum V_e,   Theta_P = sum V_e theta_e / W_P,   s_P = kappa Theta_P,
+   *   energy   sum_P W_P kappa/2 Theta_P^2,
+   *   force    sum_P s_P c_P,   c_P = sum_e V_e H_e g_a at each node of the patch,
+   *   tangent  sum_P (kappa / W_P) c_P c_P^T,
+   *
+   * with the sums over the cells e of a patch P and the volume change theta_e of VolumeMeasure,
+   * which is linear in the displacement as long as H is kept: rotations, or cofactors, of the last
+   * update(). s_P is the mean stress, positive in tension. The second derivative of theta_e is not
+   * here but with the rotations, in Cells.
+   *
+   * Each process computes Theta of its own patches, all cells of which it has, and learns that of
+   * the patches next to them; the forces of these on its own nodes it knows by itself.
+   */
+  class VolumetricPatches
+  {
+  public:
+    /**
+     * @param cells       in the same order and with the same nodes as @p list
+     * @param n_owned     own nodes: forces of others mean nothing
+     * @param partitioner of the patches
+     */
+    VolumetricPatches(const Cells &cells,
+                      const std::vector<PatchCell> &list,
+                      unsigned int n_owned,
+                      VolumeMeasure measure,
+                      std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner);
+
+    /** H of every cell, from the displacement and the rotations the cells have. */
+    void
+    update(const double *displacement);
+
+    /** f += sum s_P c_P */
+    void
+    add_internal_force(const double *displacement, double *force) const;
+
+    /** y += factor sum (kappa / W_P) c_P c_P^T w */
+    void
+    add_product(double factor, const double *w, double *y) const;
+
+    /** Of this process's patches [J]. */
+    double
+    energy(const double *displacement) const;
+
+    /** s_P of each cell [Pa], owned or not. */
+    std::vector<double>
+    mean_stress(const double *displacement) const;
+
+    /** Sum over own patches of (round-off in the forces)^2 [N^2], at strains of order one. */
+    double
+    round_off_square() const;
+
+    const VolumeMeasure measure;
+
+    /** One number for each patch: this process's own ones, then those next to them. */
+    const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
+
+    /** kappa / W_P [Pa/m^3] */
+    double
+    stiffness(const unsigned int patch) const
+    {
+      return bulk[patch] / volume[patch];
+    }
+
+    /** c_P.w of own patches; @p w must have valid ghost values. */
+    void
+    reduce(Vector &of_patches, const double *w) const;
+
+    /** y += sum c_P times a number of each patch, whose ghost values must be valid. */
+    void
+    expand(double *y, const double *of_patches) const;
+
+    /** Calls @p visit(node, c) for each node of a patch. */
+    template <class Visit>
+    void
+    for_each_node(const unsigned int patch, const Visit &visit) const
+    {
+      for (std::size_t k = start[patch]; k < start[patch + 1]; ++k)
+        visit(node[k], gradient[k]);
+    }
+
+  private:
+    void
+    find_nodes(const std::vector<PatchCell> &list);
+
+    unsigned int
+    n_own() const
+    {
+      return partitioner->locally_owned_size();
+    }
+
+    const Cells &cells;
+    const unsigned int n_owned; ///< nodes
+    std::vector<VolumeChange> changes;
+    std::vector<unsigned int> patch_of;             ///< of each cell, local number
+    std::vector<std::array<std::size_t, 4>> places; ///< of each cell's nodes in gradient
+    std::vector<std::size_t> start;                 ///< of each patch in node and gradient
+    std::vector<unsigned int> node;
+    std::vector<std::array<double, 3>> gradient; ///< c_P
+    std::vector<double> bulk, volume, constant;  ///< kappa, W_P and W_P Theta_P without c_P.u
+    mutable Vector change;                       ///< of patches, at hand
+  };
+} // namespace Supple
+
+#endif

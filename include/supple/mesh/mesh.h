@@ -1,0 +1,62 @@
+#ifndef supple_mesh_h
+#define supple_mesh_h
+
+#include <supple/mesh/distributed_mesh.h>
+#include <supple/mesh/mesh_check.h>
+
+#include <deal.II/base/bounding_box.h>
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace Supple
+{
+  /** The mesh of the body at rest, each cell on one process. The first process alone has the whole
+   * of it, while it is made, checked and cut into parts. */
+  class Mesh
+  {
+  public:
+    /** Collective. @throws InputError on all processes */
+    Mesh(const Parameters &parameters, MPI_Comm communicator);
+
+    const MPI_Comm communicator;
+    Section section; ///< solid, or what stands behind the triangles of a plane body
+    std::unique_ptr<DistributedMesh> parts;
+
+    unsigned int n_cells    = 0;                     ///< on all processes
+    unsigned int n_vertices = 0;                     ///< on all processes
+    double volume           = 0.;                    ///< [m^3]
+    dealii::BoundingBox<3> bounding_box;             ///< [m]
+    std::map<unsigned int, unsigned int> boundaries; ///< boundary id -> number of its faces
+    std::map<unsigned int, unsigned int> materials;  ///< material id -> number of its cells
+    MeshReport report;
+
+    /** Length of the bounding box's diagonal [m]. */
+    double
+    diameter() const;
+
+    /** "tetrahedra" or "triangles" */
+    std::string
+    cell_name() const;
+
+    /** "[0, 4] x [0, 12] x [0, 4]"; along x and y alone for a plane body. */
+    std::string
+    extent() const;
+
+  private:
+    /** On the first process: generated or read, checked and measured, with its patches.
+     * @throws InputError */
+    SerialMesh
+    make_whole(const Parameters &parameters);
+
+    void
+    measure(const SerialMesh &mesh);
+
+    /** Tells all processes what the first one knows of the whole mesh. */
+    void
+    share();
+  };
+} // namespace Supple
+
+#endif

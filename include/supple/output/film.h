@@ -1,0 +1,127 @@
+#ifndef supple_film_h
+#define supple_film_h
+
+#include <supple/mechanics/body.h>
+#include <supple/output/drawing.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace Supple
+{
+  /**
+   * The surface of the body in each frame, for the report page: its triangles, those of a plane
+   * body being all its cells, the displacement of their vertices, and volume ratio and von Mises
+   * stress of the cells behind them.
+   *
+   * The frames are kept in a file of the output folder, report.frames, so that a run that goes on
+   * from a checkpoint has those before it. Vertices are sorted by their index in the mesh before
+   * partitioning, and triangles by their vertices: the number of processes may change.
+   */
+  class Film
+  {
+  public:
+    Film(const Body &body, const std::string &folder);
+
+    /** Goes on after the first @p n_frames of a run; if they are not all there, begins here. */
+    void
+    resume(unsigned int n_frames);
+
+    /** @param drawing has "displacement", "volume_ratio" and "von_mises_stress". @throws WriteError
+     * on the first process */
+    void
+    write(const Drawing &drawing);
+
+    /** What a page needs to draw it: a description, and the numbers of which it tells the places.
+     */
+    struct Packed
+    {
+      nlohmann::ordered_json
+      description() const;
+
+      std::size_t n_vertices = 0, n_triangles = 0;
+      unsigned int n_written = 0;          ///< frames in the file
+      std::vector<double> times;           ///< of the frames that were taken
+      std::vector<double> steps;           ///< in which they were reached
+      double largest_displacement = 0.;    ///< of a component [m]; the 16 bits of it stand for this
+      std::vector<double> volume_ratio;    ///< least and largest, for 0 and 65535
+      std::vector<double> von_mises;       ///< the same [Pa]
+      std::vector<unsigned int> materials; ///< ids that occur
+      std::vector<unsigned char> bytes;
+    };
+
+    /**
+     * All frames, or as many of them at equal distances, first and last included, as have room in
+     * @p limit bytes. On the first process. Bytes, little-endian: rest positions (3 float each),
+     * triangles (3 uint32), their material id (1 uint16, one more if their number is odd), and for
+     * each frame displacements (3 int16), volume ratio and von Mises stress of the triangles
+     * (uint16).
+     */
+    Packed
+    pack(std::size_t limit) const;
+
+    /** Takes the file away. */
+    void
+    remove() const;
+
+  private:
+    /** A frame as it stands in the file. */
+    struct Frame
+    {
+      double time, step;
+      std::vector<float> displacement; ///< of the vertices [m]
+      std::vector<float> cells;        ///< volume ratios of all triangles, then stresses [Pa]
+    };
+
+    /** This process's part of it. */
+    void
+    find_surface();
+
+    void
+    gather_surface();
+
+    /** @param vertices of all processes one after the other, with their @p positions; @p corners of
+     * the triangles are of these vertices too */
+    void
+    sort_surface(std::vector<unsigned int> vertices,
+                 const std::vector<float> &positions,
+                 const std::vector<unsigned int> &corners,
+                 const std::vector<unsigned int> &unsorted_materials);
+
+    void
+    open(bool anew);
+
+    std::size_t
+    frame_size() const;
+
+    Frame
+    read_frame(std::ifstream &stream, unsigned int number) const;
+
+    const Body &body;
+    const std::string file;
+    const bool root;
+    std::vector<unsigned int> own_nodes; ///< on the surface, owned by this process
+    struct Triangle
+    {
+      std::array<unsigned int, 3> nodes; ///< local numbers
+      unsigned int cell_index, material;
+    };
+    std::vector<Triangle> own_triangles;
+
+    // On the first process: the surface as a whole, and where each number that is gathered belongs.
+    std::vector<float> rest; ///< [m]
+    std::vector<std::array<unsigned int, 3>> triangles;
+    std::vector<unsigned int> materials; ///< of the triangles
+    std::vector<unsigned int> vertex_place, triangle_place;
+
+    std::ofstream stream;
+    std::uint64_t n_missing = 0; ///< frames of the run that are not in the file, for they were lost
+    unsigned int n_frames   = 0; ///< in the file
+  };
+} // namespace Supple
+
+#endif

@@ -1,0 +1,89 @@
+#ifndef supple_frames_h
+#define supple_frames_h
+
+#include <supple/observe/diagnostics.h>
+#include <supple/output/film.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Supple
+{
+  /** Frames of the moving body for ParaView: decides when one is due and writes it. */
+  class Frames
+  {
+  public:
+    /** @param folder of the results; solution.pvd goes there and VTU files into solution/ below
+     * it, and if a report is wanted, the film that it shows */
+    Frames(const Body &body, const OutputParameters &parameters, const std::string &folder);
+
+    /** Whether something has happened that should be seen. */
+    bool
+    due(const State &state, const Measurement &now) const;
+
+    /** Whether a frame, whose numbers have 32 bits, can hold the state: none becomes infinite. */
+    bool
+    can_hold(const State &state) const;
+
+    /** Writes the state, unless it was written already. The rotations must be those of the state.
+     */
+    void
+    write(const State &state, const Measurement &now);
+
+    /** What a checkpoint has to keep of it beside displacement_of_last(). */
+    nlohmann::json
+    save() const;
+
+    void
+    load(const nlohmann::json &saved);
+
+    Vector &
+    displacement_of_last()
+    {
+      return last_displacement;
+    }
+
+    /** Null if no report is wanted. */
+    const Film *
+    surface_film() const
+    {
+      return film.get();
+    }
+
+    unsigned int
+    n_written() const
+    {
+      return records.size();
+    }
+
+  private:
+    bool
+    has_moved(const Vector &displacement) const;
+
+    bool
+    volume_has_changed(const Measurement &now) const;
+
+    void
+    write_vtu(const State &state, const Measurement &now, const std::string &name);
+
+    std::vector<std::pair<std::string, dealii::Vector<float>>>
+    cell_fields(const State &state) const;
+
+    void
+    write_pieces(const Drawing &drawing, const std::string &name) const;
+
+    const Body &body;
+    const OutputParameters &parameters;
+    const std::string folder;
+    std::unique_ptr<Film> film;
+    std::vector<std::pair<double, std::string>> records; ///< time and file of each frame
+    Measurement last;                                    ///< when the last frame was written
+    Vector last_displacement;
+    double min_volume_ratio, max_volume_ratio; ///< of all frames
+    bool inverted = false;                     ///< in any frame
+  };
+} // namespace Supple
+
+#endif

@@ -1,0 +1,27 @@
+#ifndef supple_report_h
+#define supple_report_h
+
+#include <supple/output/film.h>
+#include <supple/scene/parameters.h>
+
+#include <string>
+
+namespace Supple
+{
+  /**
+   * Writes report.html, the page of a run that needs no network: from the tables in the folder, the
+   * film, the summary and the parameters. Where there is more than a page can show, tables are
+   * thinned to a few thousand rows, those with extremes among them, and frames to some megabytes;
+   * the page says so.
+   * @param summary as in summary.json
+   * @param film    may be null
+   * @throws WriteError
+   */
+  void
+  write_report(const std::string &folder,
+               const Parameters &parameters,
+               const std::string &summary,
+               const Film *film);
+} // namespace Supple
+
+#endif

@@ -1,0 +1,154 @@
+#ifndef supple_linear_solver_h
+#define supple_linear_solver_h
+
+#include <supple/solvers/implicit_operator.h>
+
+#include <memory>
+#include <string>
+
+namespace Supple
+{
+  /**
+   * Solves A x = b for an ImplicitOperator A, symmetric and positive definite.
+   *
+   * What `auto` has chosen among the iterative solvers has a stand-in: when it fails, the stand-in
+   * solves that system, and is counted in Effort. A solver that was asked for by name has none.
+   */
+  class LinearSolver
+  {
+  public:
+    virtual ~LinearSolver() = default;
+
+    /** The solver a scene asks for; `auto` chooses by size and number of processes. */
+    static std::unique_ptr<LinearSolver>
+    create(const ImplicitOperator &A, const Parameters &scene, Effort &effort);
+
+    /**
+     * To be called whenever A has changed.
+     * @param displacement of the body now: multigrid takes its rigid motions from there [m]
+     * @throws ComputationError if A is not positive definite
+     */
+    void
+    prepare(const Vector &displacement);
+
+    /**
+     * x = A^-1 b. The true residual |b - A x| is computed and kept in Effort.
+     * @return the number of iterations, 0 for a direct solver
+     * @throws ComputationError if it does not converge or something is not a number
+     */
+    unsigned int
+    solve(Vector &x, const Vector &b);
+
+    /** Forgets what it has learned of earlier systems: after the next prepare() solutions are those
+     * of a new solver. */
+    virtual void
+    forget()
+    {
+    }
+
+    virtual std::string
+    name() const = 0;
+
+    /** The name of the solver that takes over when this one fails; empty if there is none. */
+    std::string
+    stand_in_name() const;
+
+    /** What a process has of a coarse level of multigrid. */
+    struct LevelShare
+    {
+      unsigned int n_nodes; ///< of the level, on all processes
+      unsigned int n_owned; ///< those of this process, or all if each process has the whole level
+    };
+
+    /** From the finest to the coarsest; none if this solver has none, or has not made them yet. */
+    virtual std::vector<LevelShare>
+    coarse_levels() const
+    {
+      return {};
+    }
+
+    std::string reason; ///< why this solver
+
+  protected:
+    LinearSolver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort);
+
+    /** Sets residual = b - A x and gives its norm. @throws ComputationError if x is not finite */
+    double
+    set_residual(Vector &residual, const Vector &x, const Vector &b) const;
+
+    const ImplicitOperator &A;
+    const SolverParameters &parameters;
+    Effort &effort;
+
+  private:
+    virtual void
+    do_prepare(const Vector &displacement) = 0;
+
+    /** Sets x = A^-1 b and residual = b - A x; b is not zero. */
+    virtual unsigned int
+    do_solve(Vector &x, const Vector &b, Vector &residual) = 0;
+
+    /** do_solve() and what iterative refinement can mend. @throws ComputationError */
+    unsigned int
+    solve_alone(Vector &x, const Vector &b);
+
+    unsigned int
+    solve_by_stand_in(Vector &x, const Vector &b);
+
+    Vector residual, remainder, correction;
+    std::unique_ptr<LinearSolver> stand_in;
+    Vector prepared_at;             ///< displacement A is of [m], kept for the stand-in
+    bool prepared          = false; ///< for A as it is
+    bool stand_in_prepared = false;
+  };
+
+
+  /** What iterative solvers make their preconditioner of: the matrix of A or, where patches resist
+   * to changes of volume, one with bounded bulk modulus. */
+  class PreconditioningMatrix
+  {
+  public:
+    explicit PreconditioningMatrix(const ImplicitOperator &A);
+
+    /** To be called whenever A has changed. */
+    void
+    update();
+
+    const SymmetricBlockMatrix &
+    get() const
+    {
+      return bounded ? *bounded : A.matrix();
+    }
+
+  private:
+    const ImplicitOperator &A;
+    std::unique_ptr<SymmetricBlockMatrix> bounded;
+  };
+
+
+  /** Eigen's SimplicialLDLT: one process, small bodies. */
+  std::unique_ptr<LinearSolver>
+  make_ldlt_solver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort);
+
+  /** CHOLMOD's supernodal Cholesky factorization: one process, bodies of middle size. */
+  std::unique_ptr<LinearSolver>
+  make_cholmod_solver(const ImplicitOperator &A,
+                      const SolverParameters &parameters,
+                      Effort &effort);
+
+  /** Conjugate gradients with Trilinos ML and the six rigid motions of the deformed body. */
+  std::unique_ptr<LinearSolver>
+  make_cg_ml_solver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort);
+
+  /** Conjugate gradients with our own multigrid. */
+  std::unique_ptr<LinearSolver>
+  make_cg_amg_solver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort);
+
+  /** Conjugate gradients with the inverted 3x3 diagonal blocks. */
+  std::unique_ptr<LinearSolver>
+  make_cg_jacobi_solver(const ImplicitOperator &A,
+                        const SolverParameters &parameters,
+                        Effort &effort);
+} // namespace Supple
+
+#endif

@@ -1,0 +1,141 @@
+#ifndef supple_arkode_integrator_h
+#define supple_arkode_integrator_h
+
+#include <supple/time/dynamic_integrator.h>
+
+#include <limits>
+
+namespace Supple
+{
+  /**
+   * Runge-Kutta methods by SUNDIALS's ARKode: backward Euler, diagonally implicit and explicit
+   * ones, with fixed or variable steps.
+   *
+   * Backward Euler with the rotations frozen at the start of each step is one linear system,
+   *
+   *   (M + dt D + dt^2 K') v1 = M v0 + dt (f1 - K' (X + u0) + f0),   u1 = u0 + dt v1;
+   *
+   * all other implicit methods let them follow and find each stage by Newton's method. A fixed step
+   * that fails is tried again in halves, until the next multiple of the step is reached.
+   */
+  class ArkodeIntegrator : public DynamicIntegrator
+  {
+  public:
+    explicit ArkodeIntegrator(const Model &model);
+
+    ~ArkodeIntegrator() override;
+
+    std::string
+    name() const override;
+
+    nlohmann::json
+    save() override;
+
+    void
+    load(const nlohmann::json &saved) override;
+
+    std::optional<StableStep>
+    stable_step() const override
+    {
+      return stable;
+    }
+
+  private:
+    StepReport
+    take_step(State &state) override;
+
+    bool
+    make_safer() override;
+
+    bool
+    make_simpler() override;
+
+    void
+    accept_step() override;
+
+    /** Stages are one linear system each, or Newton's method. */
+    void
+    set_linear(bool linear);
+
+    /** Of backward Euler alone. */
+    void
+    set_rotations(EquationOfMotion::Rotations rotations);
+
+    void
+    create_memory();
+
+    /** @throws InputError if a fixed step of an explicit method is too long */
+    void
+    set_table();
+
+    void
+    check_stability() const;
+
+    /** Of variable steps [s]; 0 if any. */
+    double
+    longest_step() const;
+
+    void
+    set_linear_systems();
+
+    /** ARKode's right hand side: the net force, over the mass where there is no mass matrix. */
+    void
+    evaluate(double time, const double *y, double *f);
+
+    /** Takes what the state says for the unknowns and forgets the past. */
+    void
+    restart(const State &state);
+
+    /** One step of ARKode. @return whether it succeeded */
+    bool
+    evolve();
+
+    /** Of variable steps, so far. */
+    void
+    count_rejections();
+
+    /** The largest step that does not pass the next multiple of the step, nor is much larger than
+     * the last one. */
+    double
+    next_step_size() const;
+
+    void
+    set_step_size(double size);
+
+    /** Says what failed, and how small the step was. */
+    [[noreturn]] void
+    throw_at(double size);
+
+    /** The time [s] after a fixed step of this size: the next multiple of the step if that is
+     * reached. */
+    double
+    end_of_step(double size) const;
+
+    /** What ARKode's time is to us: without the round-off of its sum of steps, so that loads and
+     * motions at the end of a step are those of the time that is reported. */
+    double
+    time_of(double at) const;
+
+    StepReport
+    take_fixed_step(State &state);
+
+    bool linear = false; ///< each stage is one linear system
+    Sundials::LinearSystem mass_system;
+    Sundials::StateVector error;
+    void *memory           = nullptr;
+    bool started           = false;
+    double ode_time        = 0.; ///< ARKode's time [s]
+    double ode_start       = 0.; ///< the same at the start of the step [s]
+    double step_end        = 0.; ///< the end of the fixed step, as reported [s]
+    double set_size        = 0.; ///< the fixed step ARKode knows of [s]
+    double last_size       = 0.; ///< of the last fixed step that succeeded [s]
+    double size_limit      = std::numeric_limits<double>::max(); ///< of the next step [s]
+    unsigned int grid      = 0;     ///< multiples of the step that are reached
+    bool newton_fails      = false; ///< up to the next of them
+    bool given_up          = false; ///< up to the next of them: the energy rises
+    long newton_iterations = 0;
+    std::optional<StableStep> stable; ///< of an explicit method
+  };
+} // namespace Supple
+
+#endif

@@ -1,0 +1,105 @@
+#ifndef supple_dynamic_integrator_h
+#define supple_dynamic_integrator_h
+
+#include <supple/time/energy_guard.h>
+#include <supple/time/equation_of_motion.h>
+#include <supple/time/sundials.h>
+
+namespace Supple
+{
+  /** What all integrators of the equation of motion share: SUNDIALS's surroundings, and a look at
+   * each step when it is done. */
+  class DynamicIntegrator : public TimeIntegrator
+  {
+  public:
+    StepReport
+    advance(State &state, bool observed) final;
+
+  protected:
+    DynamicIntegrator(const Model &model,
+                      EquationOfMotion::Rotations rotations,
+                      EquationOfMotion::HeldVelocity held_velocity);
+
+    /**
+     * Takes one step from the unknowns, which are those of @p state, and sets @p state to its end.
+     * @throws ComputationError with the state as it was
+     */
+    virtual StepReport
+    take_step(State &state) = 0;
+
+    /** Prepares to do the last step again in a way that is less likely to raise the energy.
+     * @return false if it stands as it is */
+    virtual bool
+    make_safer() = 0;
+
+    /** The safer way has failed. Prepares for another one, that needs no iteration.
+     * @return false if there is none */
+    virtual bool
+    make_simpler()
+    {
+      return false;
+    }
+
+    /** The last step stands, and the next one is as usual again. */
+    virtual void
+    accept_step()
+    {
+    }
+
+    /** Sets the absolute tolerance of each unknown. @return the relative tolerance */
+    double
+    set_tolerances();
+
+    /** Of variable steps [s]: those that end up here would go on for ever. */
+    double
+    shortest_step() const;
+
+    /** Throws what a callback threw, or else what SUNDIALS says. */
+    [[noreturn]] void
+    throw_what_failed();
+
+    /** The largest length, over all vertices, of the displacements in a vector of unknowns. */
+    double
+    largest_displacement(const double *unknowns) const;
+
+    const TimeParameters &settings;
+    EquationOfMotion equation;
+    const bool backward_euler; ///< its energy balance is exact
+    const bool adaptive;       ///< steps
+    Sundials::Context context;
+    Sundials::LinearSystem system;
+    Sundials::StateVector unknowns, absolute_tolerances;
+    Sundials::Failure failure;
+
+  private:
+    /** The rate at which a pressure wave runs through the body [1/s]. */
+    double
+    wave_rate() const;
+
+    /** Reactions, work and what was expended. */
+    void
+    observe(const State &state, StepReport &report);
+
+    /** Sets imbalance and applied. */
+    void
+    set_forces(const State &state, double at_time);
+
+    /** One step and what is to be known of it. @throws ComputationError with the state as it was */
+    StepReport
+    step_once(State &state, bool observed);
+
+    /** The step from @p start once more, in the way that was prepared. */
+    StepReport
+    step_again(State &state, double start);
+
+    EnergyGuard guard;
+    const bool guarded;
+    bool started = false;
+    State previous;
+    Vector imbalance; ///< f_int + D v - f, at the end of the last observed step [N]
+    Vector applied;   ///< f without gravity [N]
+    Vector work_space;
+  };
+} // namespace Supple
+
+#endif

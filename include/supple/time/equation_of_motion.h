@@ -1,0 +1,171 @@
+#ifndef supple_equation_of_motion_h
+#define supple_equation_of_motion_h
+
+#include <supple/solvers/mass_solver.h>
+#include <supple/time/time_integrator.h>
+
+namespace Supple
+{
+  /**
+   * The equations integrators solve, on this process's nodes:
+   *
+   *   u' = v,   M_ff q' = f(t) - D v - f_int(u),   q = v + M_ff^-1 M_fh v_h,
+   *
+   * with the free degrees of freedom f and the held ones h, whose displacement g(t) and velocity
+   * v_h = g'(t) are prescribed. In q, the momentum of the free ones over their mass, the
+   * acceleration of the held ones does not appear: a motion may start with a jerk. Without motions
+   * q is v.
+   *
+   * The unknowns are 6 n_owned doubles, u then q, with zeros where the body is held.
+   */
+  class EquationOfMotion
+  {
+  public:
+    enum class Rotations
+    {
+      frozen,   ///< those the body has; pressure follows the surface of the last begin_step()
+      following ///< those of the displacement
+    };
+
+    enum class HeldVelocity
+    {
+      derivative, ///< g'(t)
+      difference  ///< (g(t) - g(t0)) / (t - t0) since the last begin_step(): backward Euler's
+    };
+
+    EquationOfMotion(const Model &model, Rotations rotations, HeldVelocity held_velocity);
+
+    unsigned int
+    n_unknowns() const
+    {
+      return 2 * n;
+    }
+
+    /** To be called with the accepted state at the start of each step. */
+    void
+    begin_step(double time, const State &state);
+
+    void
+    get_unknowns(double *y, const State &state);
+
+    void
+    set_state(State &state, double time, const double *y);
+
+    /** f = (v, net force) at time t */
+    void
+    evaluate(double *f, double time, const double *y);
+
+    /** (x_u, M_ff x_q) */
+    void
+    mass_product(double *y, const double *x);
+
+    /** Its inverse. @throws ComputationError */
+    void
+    solve_mass(double *x, const double *b);
+
+    /** Prepares solve() at this state. @throws ComputationError */
+    void
+    linearize(double time, const double *y, double gamma);
+
+    /**
+     * Solves, with the gamma of the last linearize(),
+     *
+     *   [ I    -g I    ] [x_u]   [b_u]
+     *   [ g K'  M + g D] [x_q] = [b_q]
+     *
+     * by elimination: (M + g D + g^2 K') x_q = b_q - g K' b_u, x_u = b_u + g x_q.
+     * @throws ComputationError
+     */
+    void
+    solve(double *x, const double *b);
+
+    /** The same in Newton's method: where it converges slowly, the operator is first assembled anew
+     * for the state of the last evaluate(). */
+    void
+    solve_newton(double *x, const double *b);
+
+    /** y = M x on all rows, held ones included. */
+    void
+    full_mass_product(Vector &y, const Vector &x) const;
+
+    /** y = D x on all rows, with the rotations the body has now. */
+    void
+    full_damping_product(Vector &y, const Vector &x);
+
+    /** Prepares solve() for the same gamma at the state of the last evaluate(). @throws
+     * ComputationError */
+    void
+    relinearize();
+
+    /** Prepares solve() for another gamma at the state of the last linearize(). */
+    void
+    set_gamma(double gamma);
+
+    double
+    current_gamma() const
+    {
+      return gamma;
+    }
+
+    void
+    set_rotations(Rotations rotations);
+
+    bool
+    rotations_are_frozen() const
+    {
+      return rotations == Rotations::frozen;
+    }
+
+    /** What pressure pushes on in a step that ended with this displacement. */
+    const Vector &
+    pushed_surface(const Vector &displacement) const;
+
+    const Model model;
+    unsigned int linear_iterations = 0; ///< so far
+
+  private:
+    /** Sets displacement and velocity, held entries included, from the unknowns. */
+    void
+    complete(double time, const double *y);
+
+    /** Sets the held entries of displacement and velocity, and the shift between q and v. */
+    void
+    prescribe(double time);
+
+    void
+    set_held_velocity(Vector &velocity, double time);
+
+    /** shift = M_ff^-1 M_fh v_h */
+    void
+    set_shift(const Vector &held_velocity);
+
+    /** The operator at the displacement of the last complete(). */
+    void
+    assemble();
+
+    const unsigned int n; ///< own degrees of freedom
+    Rotations rotations;
+    Tangent tangent;        ///< wanted
+    bool gives_way = false; ///< a tangent that is not definite is replaced by one that is
+    bool replaced  = false; ///< since the last begin_step()
+    const HeldVelocity held_velocity;
+    const bool inertia_couples; ///< a held vertex to its neighbours, by the mass matrix
+    MassSolver mass_solver;
+
+    double step_start = 0.;
+    Vector start_displacement, start_velocity;
+
+    double prescribed_time = -1.;
+    Vector prescribed_displacement, prescribed_velocity, shift;
+
+    double stage_time            = -1.; ///< of the last evaluate() [s]
+    unsigned int stage_solutions = 0;   ///< corrections at that time
+    double correction            = 0.;  ///< norm of the last one
+    double contraction           = 1.;  ///< of the second correction over the first, lately
+
+    double gamma = 0.;
+    Vector displacement, velocity, force, scratch, solution;
+  };
+} // namespace Supple
+
+#endif

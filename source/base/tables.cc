@@ -1,0 +1,95 @@
+#include <supple/base/error.h>
+#include <supple/base/tables.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <sstream>
+
+namespace Supple
+{
+  CsvFile::CsvFile(const std::string &file, const std::vector<std::string> &column_names)
+    : file(file)
+    , stream(file)
+  {
+    for (std::size_t i = 0; i < column_names.size(); ++i)
+      stream << (i == 0 ? "" : ",") << column_names[i];
+    stream << std::endl;
+    if (!stream)
+      throw WriteError(file + " can't be written.");
+  }
+
+
+  namespace
+  {
+    void
+    cut_after_rows(const std::string &file, const unsigned long n_rows)
+    {
+      std::ifstream stream(file);
+      std::ostringstream kept;
+      std::string line;
+      for (unsigned long row = 0; row <= n_rows; ++row)
+        {
+          if (!std::getline(stream, line))
+            throw InputError(file + " has fewer rows than the checkpoint beside it knows of: " +
+                             "begin anew with Checkpoint/Resume = never.");
+          kept << line << '\n';
+        }
+      write_whole_file(file, kept.str());
+    }
+  } // namespace
+
+
+  CsvFile::CsvFile(const std::string &file, const unsigned long n_rows)
+    : file(file)
+  {
+    cut_after_rows(file, n_rows);
+    stream.open(file, std::ios::app);
+    if (!stream)
+      throw WriteError(file + " can't be written.");
+  }
+
+
+  void
+  CsvFile::write_row(const std::vector<double> &values)
+  {
+    write_rows({values});
+  }
+
+
+  void
+  CsvFile::write_rows(const std::vector<std::vector<double>> &rows)
+  {
+    std::ostringstream text; // the rows go to the disk in one piece
+    text.precision(15);
+    for (const std::vector<double> &row : rows)
+      {
+        for (std::size_t i = 0; i < row.size(); ++i)
+          text << (i == 0 ? "" : ",") << row[i];
+        text << '\n';
+      }
+    stream << text.str() << std::flush;
+    if (!stream)
+      throw WriteError(file + " can't be written any more; is the disk full?");
+  }
+
+
+  void
+  write_whole_file(const std::string &file, const std::string &content)
+  {
+    const std::string aside = file + ".partial";
+    {
+      std::ofstream stream(aside);
+      stream << content << std::flush;
+      if (!stream)
+        {
+          stream.close();
+          std::remove(aside.c_str());
+          throw WriteError(file + " can't be written; is the disk full?");
+        }
+    }
+    std::error_code problem;
+    std::filesystem::rename(aside, file, problem);
+    if (problem)
+      throw WriteError(file + " can't be written (" + problem.message() + ").");
+  }
+} // namespace Supple

@@ -1,0 +1,648 @@
+#include <supple/base/huge_pages.h>
+#include <supple/mechanics/cells.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Supple
+{
+  namespace stdx = std::experimental;
+
+  namespace
+  {
+    using Vector3 = std::array<double, 3>;
+
+    Vector3
+    difference(const Vector3 &a, const Vector3 &b)
+    {
+      return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}};
+    }
+
+    Vector3
+    cross(const Vector3 &a, const Vector3 &b)
+    {
+      return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+    }
+
+
+    /** Gradients of the four linear shape functions; returns the volume. */
+    double
+    shape_gradients(const std::array<Vector3, 4> &X, std::array<Vector3, 4> &g)
+    {
+      const Vector3 d1 = difference(X[1], X[0]), d2 = difference(X[2], X[0]),
+                    d3 = difference(X[3], X[0]);
+
+      g[1] = cross(d2, d3);
+      g[2] = cross(d3, d1);
+      g[3] = cross(d1, d2);
+
+      const double six_volumes = d1[0] * g[1][0] + d1[1] * g[1][1] + d1[2] * g[1][2];
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          g[0][i] = 0.;
+          for (unsigned int a = 1; a < 4; ++a)
+            {
+              g[a][i] /= six_volumes;
+              g[0][i] -= g[a][i];
+            }
+        }
+      return six_volumes / 6.;
+    }
+
+
+    /** The same for the three of a triangle in the plane z = 0; returns the area. */
+    double
+    shape_gradients_in_plane(const std::array<Vector3, 4> &X, std::array<Vector3, 4> &g)
+    {
+      const Vector3 d1 = difference(X[1], X[0]), d2 = difference(X[2], X[0]);
+      const double two_areas = d1[0] * d2[1] - d1[1] * d2[0];
+
+      g[1] = {{d2[1] / two_areas, -d2[0] / two_areas, 0.}};
+      g[2] = {{-d1[1] / two_areas, d1[0] / two_areas, 0.}};
+      g[0] = {{-g[1][0] - g[2][0], -g[1][1] - g[2][1], 0.}};
+      g[3] = {{0., 0., 0.}};
+      return two_areas / 2.;
+    }
+  } // namespace
+
+
+  Cells::Cells(const std::vector<std::array<double, 3>> &positions,
+               const unsigned int n_owned,
+               const std::vector<Cell> &cells,
+               const bool lumped_mass,
+               const double vertex_mass,
+               const Section &section,
+               const unsigned int n_threads)
+    : n_cells(cells.size())
+    , n_owned(n_owned)
+    , lumped_mass(lumped_mass)
+    , vertex_mass(vertex_mass)
+    , section(section)
+    , n_nodes(section.plane() ? 3 : 4)
+    , pair_share(1. / (n_nodes * (n_nodes + 1)))
+    , positions(positions)
+  {
+    // Empty lanes: zero volume, node 0.
+    resize_in_huge_pages(batches, (cells.size() + n_lanes - 1) / n_lanes);
+    if (section.axisymmetric())
+      hoops.resize(batches.size());
+    for (std::size_t c = 0; c < n_cells; ++c)
+      add_cell(c, cells[c]);
+    cut_into_chunks(n_threads);
+  }
+
+
+  void
+  Cells::cut_into_chunks(const unsigned int n_threads)
+  {
+    chunk_start = {0, batches.size()};
+    for (std::size_t n_chunks = 2 * n_threads; n_chunks > 2; n_chunks -= 2)
+      {
+        chunk_start.clear();
+        for (std::size_t chunk = 0; chunk <= n_chunks; ++chunk)
+          chunk_start.push_back(chunk * batches.size() / n_chunks);
+        if (chunks_are_apart())
+          return;
+      }
+    chunk_start = {0, batches.size()};
+  }
+
+
+  bool
+  Cells::chunks_are_apart() const
+  {
+    constexpr std::size_t none = -1;
+    std::array<std::vector<std::size_t>, 2> chunk_of_node; // of even and of odd number
+    chunk_of_node.fill(std::vector<std::size_t>(positions.size(), none));
+    for (std::size_t chunk = 0; chunk + 1 < chunk_start.size(); ++chunk)
+      for (std::size_t b = chunk_start[chunk]; b < chunk_start[chunk + 1]; ++b)
+        for (const auto &nodes_of_lanes : batches[b].nodes)
+          for (const std::uint32_t node : nodes_of_lanes) // of empty lanes too: zero is added there
+            {
+              std::size_t &known = chunk_of_node[chunk % 2][node];
+              if (known != none && known != chunk)
+                return false;
+              known = chunk;
+            }
+    return true;
+  }
+
+
+  void
+  Cells::add_cell(const std::size_t number, const Cell &cell)
+  {
+    Batch &batch            = batches[number / n_lanes];
+    const unsigned int lane = number % n_lanes;
+
+    std::array<Vector3, 4> X, g;
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      X[a] = positions[cell.nodes[a]];
+    if (section.plane())
+      {
+        const double centroid = (X[0][0] + X[1][0] + X[2][0]) / 3.;
+        batch.volume[lane]    = shape_gradients_in_plane(X, g) * section.thickness_at(centroid);
+      }
+    else
+      batch.volume[lane] = shape_gradients(X, g);
+
+    const IsotropicMaterial material = section.effective(cell.material);
+    batch.lambda[lane]               = material.lambda;
+    batch.mu[lane]                   = material.mu;
+    batch.density[lane]              = material.density;
+    batch.owned[lane]                = cell.owned ? 1. : 0.;
+
+    // Nodes in ascending order: then each pair lies below the diagonal of the matrix.
+    const auto number_of = [&](const unsigned int a) {
+      return a < n_nodes ? cell.nodes[a] : dealii::numbers::invalid_unsigned_int;
+    };
+    std::array<unsigned int, 4> order = {{0, 1, 2, 3}};
+    std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
+      return number_of(a) < number_of(b);
+    });
+    for (unsigned int a = 0; a < 4; ++a)
+      {
+        // The fourth node of a triangle: somewhere to read zero times a number from.
+        batch.nodes[a][lane] = cell.nodes[order[std::min(a, n_nodes - 1)]];
+        for (unsigned int i = 0; i < 3; ++i)
+          batch.gradients[a][i][lane] = g[order[a]][i];
+      }
+    if (section.axisymmetric())
+      {
+        const double radius                    = (X[0][0] + X[1][0] + X[2][0]) / 3.;
+        hoops[number / n_lanes].gradient[lane] = 1. / (3. * radius);
+        for (unsigned int a = 0; a < 3; ++a)
+          hoops[number / n_lanes].nodal_radius[a][lane] = X[order[a]][0] / radius;
+      }
+  }
+
+
+  void
+  Cells::connect(const SymmetricPattern &pattern)
+  {
+    slots.clear();
+    resize_in_huge_pages(slots, batches.size());
+    std::size_t chunk = 0;
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      for (unsigned int lane = 0; lane < n_lanes; ++lane)
+        {
+          while (b >= chunk_start[chunk + 1])
+            ++chunk;
+          const std::size_t spare = chunk / 2; // that of its thread
+          const bool empty        = b * n_lanes + lane >= n_cells;
+          const auto node         = [&](const unsigned int a) { return batches[b].nodes[a][lane]; };
+          const auto exists       = [&](const unsigned int a) { return !empty && a < n_nodes; };
+          for (unsigned int a = 0; a < 4; ++a)
+            slots[b].diagonal[a][lane] =
+              exists(a) && node(a) < pattern.n_owned ? node(a) : pattern.n_owned + spare;
+          for (unsigned int p = 0; p < 6; ++p)
+            {
+              slots[b].lower[p][lane] =
+                exists(lower_pairs[p][0])
+                  ? pattern.position(node(lower_pairs[p][0]), node(lower_pairs[p][1]))
+                  : pattern.n_entries();
+              if (slots[b].lower[p][lane] == pattern.n_entries())
+                slots[b].lower[p][lane] += spare;
+            }
+        }
+  }
+
+
+  Cells::NodalPack
+  Cells::gather(const Batch &batch, const double *nodal)
+  {
+    NodalPack values;
+    for (unsigned int a = 0; a < 4; ++a)
+      {
+        alignas(64) double buffer[3][n_lanes];
+        for (unsigned int lane = 0; lane < n_lanes; ++lane)
+          for (unsigned int i = 0; i < 3; ++i)
+            buffer[i][lane] = nodal[3 * static_cast<std::size_t>(batch.nodes[a][lane]) + i];
+        for (unsigned int i = 0; i < 3; ++i)
+          values[a][i].copy_from(buffer[i], stdx::vector_aligned);
+      }
+    return values;
+  }
+
+
+  void
+  Cells::scatter(const Batch &batch, const NodalPack &values, double *nodal)
+  {
+    for (unsigned int a = 0; a < 4; ++a)
+      {
+        alignas(64) double buffer[3][n_lanes];
+        for (unsigned int i = 0; i < 3; ++i)
+          values[a][i].copy_to(buffer[i], stdx::vector_aligned);
+        for (unsigned int lane = 0; lane < n_lanes; ++lane)
+          for (unsigned int i = 0; i < 3; ++i)
+            nodal[3 * static_cast<std::size_t>(batch.nodes[a][lane]) + i] += buffer[i][lane];
+      }
+  }
+
+
+  Matrix3<Pack>
+  Cells::gradient(const std::size_t b, const NodalPack &values) const
+  {
+    const Batch &batch = batches[b];
+    Matrix3<Pack> G;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        G(i, j) = values[0][i] * batch.gradients[0][j] + values[1][i] * batch.gradients[1][j] +
+                  values[2][i] * batch.gradients[2][j] + values[3][i] * batch.gradients[3][j];
+    if (!hoops.empty())
+      G(2, 2) += hoops[b].gradient * (values[0][0] + values[1][0] + values[2][0]);
+    return G;
+  }
+
+
+  Matrix3<Pack>
+  Cells::deformation_gradient(const std::size_t b, const double *displacement) const
+  {
+    Matrix3<Pack> F = gradient(b, gather(batches[b], displacement));
+    for (unsigned int i = 0; i < 3; ++i)
+      F(i, i) += 1.;
+    return F;
+  }
+
+
+  Matrix3<Pack>
+  Cells::rotation_of(const std::size_t b) const
+  {
+    return rotations.empty() ? Matrix3<Pack>::identity() : rotations[b];
+  }
+
+
+  Matrix3<Pack>
+  Cells::rotated_back(const std::size_t b, const Matrix3<Pack> &G) const
+  {
+    Matrix3<Pack> S = transposed_product(rotation_of(b), G);
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < i; ++j)
+        S(i, j) = S(j, i) = 0.5 * (S(i, j) + S(j, i));
+    return S;
+  }
+
+
+  Matrix3<Pack>
+  Cells::strain(const std::size_t b, const Matrix3<Pack> &F) const
+  {
+    Matrix3<Pack> e = rotated_back(b, F);
+    for (unsigned int i = 0; i < 3; ++i)
+      e(i, i) -= 1.;
+    return e;
+  }
+
+
+  Matrix3<Pack>
+  Cells::stress(const Batch &batch, const Matrix3<Pack> &strain)
+  {
+    Matrix3<Pack> P;
+    for (unsigned int k = 0; k < 9; ++k)
+      P.entries[k] = 2. * batch.mu * strain.entries[k];
+    const Pack pressure = batch.lambda * trace(strain);
+    for (unsigned int i = 0; i < 3; ++i)
+      P(i, i) += pressure;
+    return P;
+  }
+
+
+  Cells::NodalPack
+  Cells::divergence(const std::size_t b, const Matrix3<Pack> &P) const
+  {
+    const auto &g = batches[b].gradients;
+    NodalPack f;
+    for (unsigned int a = 0; a < 4; ++a)
+      for (unsigned int i = 0; i < 3; ++i)
+        f[a][i] = P(i, 0) * g[a][0] + P(i, 1) * g[a][1] + P(i, 2) * g[a][2];
+    if (!hoops.empty())
+      for (unsigned int a = 0; a < 3; ++a)
+        f[a][0] += hoops[b].gradient * P(2, 2);
+    return f;
+  }
+
+
+  void
+  Cells::add_stress_divergence(const std::size_t b,
+                               const Matrix3<Pack> &strain,
+                               double *force) const
+  {
+    const Batch &batch = batches[b];
+    Matrix3<Pack> P    = stress(batch, strain);
+    if (!rotations.empty())
+      P = rotations[b] * P;
+    for (Pack &entry : P.entries)
+      entry *= batch.volume;
+    scatter(batch, divergence(b, P), force);
+  }
+
+
+  void
+  Cells::update_rotations(const RotationMethod method, const double *displacement)
+  {
+    if (rotations.empty())
+      resize_in_huge_pages(rotations, batches.size());
+    if (section.plane())
+      for_batches([&](const std::size_t b) {
+        rotations[b] = rotation_in_plane(method, deformation_gradient(b, displacement));
+      });
+    else
+      for_batches([&](const std::size_t b) {
+        rotations[b] = rotation(method, deformation_gradient(b, displacement));
+      });
+  }
+
+
+  void
+  Cells::add_internal_force(const double *displacement, double *force) const
+  {
+    for_batches_in_turn([&](const std::size_t b) {
+      add_stress_divergence(b, strain(b, deformation_gradient(b, displacement)), force);
+    });
+  }
+
+
+  void
+  Cells::add_stiffness_product(const double *w, double *y) const
+  {
+    for_batches_in_turn([&](const std::size_t b) {
+      add_stress_divergence(b, rotated_back(b, gradient(b, gather(batches[b], w))), y);
+    });
+  }
+
+
+  Pack
+  Cells::nodal_share(const std::size_t b, const unsigned int a) const
+  {
+    if (hoops.empty())
+      return 1. / n_nodes;
+    return (3. + hoops[b].nodal_radius[a]) / 12.;
+  }
+
+
+  /**
+   * (1 + delta_ac) pair_share of the cell's mass. All around an axis the integral of N_a N_c has
+   * the weight r, which makes it (3 + r_a/r + r_c/r)/5 times that.
+   */
+  Pack
+  Cells::mass_entry(const std::size_t b, const unsigned int a, const unsigned int c) const
+  {
+    const Pack mass = batches[b].density * batches[b].volume;
+    if (lumped_mass)
+      return a == c ? nodal_share(b, a) * mass : Pack(0.);
+    const Pack share = (a == c ? 2. : 1.) * pair_share * mass;
+    if (hoops.empty())
+      return share;
+    return 0.2 * (3. + hoops[b].nodal_radius[a] + hoops[b].nodal_radius[c]) * share;
+  }
+
+
+  Cells::NodalPack
+  Cells::integral(const std::size_t b,
+                  const Pack &weight,
+                  const bool lumped,
+                  const NodalPack &values) const
+  {
+    const Pack share    = weight * pair_share;
+    const double fourth = n_nodes == 4 ? 1. : 0.; // a triangle has no such node
+    NodalPack integrals;
+    for (unsigned int i = 0; i < 3; ++i)
+      if (lumped)
+        for (unsigned int a = 0; a < 4; ++a)
+          integrals[a][i] = nodal_share(b, a) * weight * values[a][i];
+      else if (hoops.empty())
+        {
+          const Pack sum = values[0][i] + values[1][i] + values[2][i] + fourth * values[3][i];
+          for (unsigned int a = 0; a < 4; ++a)
+            integrals[a][i] = share * (sum + values[a][i]);
+        }
+      else
+        {
+          const auto &r       = hoops[b].nodal_radius;
+          const Pack sum      = values[0][i] + values[1][i] + values[2][i];
+          const Pack weighted = r[0] * values[0][i] + r[1] * values[1][i] + r[2] * values[2][i];
+          for (unsigned int a = 0; a < 4; ++a)
+            integrals[a][i] =
+              0.2 * share * ((3. + r[a]) * sum + weighted + (3. + 2. * r[a]) * values[a][i]);
+        }
+    for (unsigned int i = 0; i < 3; ++i)
+      integrals[3][i] *= fourth;
+    return integrals;
+  }
+
+
+  Cells::NodalPack
+  Cells::mass_product(const std::size_t b, const NodalPack &values) const
+  {
+    return integral(b, batches[b].density * batches[b].volume, lumped_mass, values);
+  }
+
+
+  void
+  Cells::add_mass_product(const double *w, double *y) const
+  {
+    for_batches_in_turn(
+      [&](const std::size_t b) { scatter(batches[b], mass_product(b, gather(batches[b], w)), y); });
+    if (vertex_mass > 0.)
+      for (std::size_t dof = 0; dof < 3 * positions.size(); ++dof)
+        y[dof] += vertex_mass * w[dof];
+  }
+
+
+  void
+  Cells::add_load(const double *force_density, double *force) const
+  {
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      scatter(batches[b],
+              integral(b, batches[b].volume, false, gather(batches[b], force_density)),
+              force);
+  }
+
+
+  void
+  Cells::add_mass(SymmetricScalarMatrix &M) const
+  {
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      {
+        for (unsigned int a = 0; a < 4; ++a)
+          {
+            const Pack entry = mass_entry(b, a, a);
+            for (unsigned int lane = 0; lane < n_lanes; ++lane)
+              M.diagonal[slots[b].diagonal[a][lane]] += entry[lane];
+          }
+        for (unsigned int p = 0; p < 6; ++p)
+          {
+            const Pack entry = mass_entry(b, lower_pairs[p][0], lower_pairs[p][1]);
+            for (unsigned int lane = 0; lane < n_lanes; ++lane)
+              M.lower[slots[b].lower[p][lane]] += entry[lane];
+          }
+      }
+    for (unsigned int node = 0; node < n_owned; ++node)
+      M.diagonal[node] += vertex_mass;
+  }
+
+
+  void
+  Cells::add_nodal_mass(double *mass) const
+  {
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        {
+          const Pack share = nodal_share(b, a) * batches[b].density * batches[b].volume;
+          for (unsigned int lane = 0; lane < n_lanes; ++lane)
+            mass[batches[b].nodes[a][lane]] += share[lane];
+        }
+    for (std::size_t node = 0; node < positions.size(); ++node)
+      mass[node] += vertex_mass;
+  }
+
+
+  double
+  Cells::round_off_square() const
+  {
+    constexpr double epsilon = 8. * std::numeric_limits<double>::epsilon();
+    Pack sum(0.);
+    for (const Batch &batch : batches)
+      {
+        const Pack stress = epsilon * batch.owned * batch.volume * (batch.lambda + 2. * batch.mu);
+        for (const auto &g : batch.gradients)
+          sum += stress * stress * (g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+      }
+    return stdx::reduce(sum);
+  }
+
+
+  CellSums
+  Cells::sums(const double *displacement, const double *velocity) const
+  {
+    CellSums sums;
+    add_deformation(displacement, sums);
+    if (velocity != nullptr)
+      {
+        add_motion(displacement, velocity, sums);
+        if (vertex_mass > 0.)
+          add_motion_of_vertices(displacement, velocity, sums);
+      }
+    if (section.axisymmetric())
+      {
+        sums.linear_momentum[0] = 0.;
+        sums.angular_momentum   = {{0., 0., 0.}};
+      }
+    return sums;
+  }
+
+
+  void
+  Cells::add_deformation(const double *displacement, CellSums &sums) const
+  {
+    Pack elastic(0.), inverted(0.);
+    Pack smallest(sums.min_volume_ratio), largest(sums.max_volume_ratio);
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      {
+        const Batch &batch    = batches[b];
+        const Matrix3<Pack> F = deformation_gradient(b, displacement);
+        const Matrix3<Pack> e = strain(b, F);
+        const Pack tr         = trace(e);
+        elastic +=
+          batch.owned * batch.volume * (batch.mu * norm_square(e) + 0.5 * batch.lambda * tr * tr);
+
+        const Pack ratio   = determinant(F);
+        const auto counted = batch.owned > 0.;
+
+        stdx::where(counted && ratio < smallest, smallest) = ratio;
+        stdx::where(counted && ratio > largest, largest)   = ratio;
+        stdx::where(counted && !(ratio > 0.), inverted) += 1.;
+      }
+    sums.elastic += stdx::reduce(elastic);
+    sums.min_volume_ratio = stdx::hmin(smallest);
+    sums.max_volume_ratio = stdx::hmax(largest);
+    sums.inverted += static_cast<unsigned int>(stdx::reduce(inverted));
+  }
+
+
+  /** A cell's mass matrix times its velocities gives the momenta of its nodes. */
+  void
+  Cells::add_motion(const double *displacement, const double *velocity, CellSums &sums) const
+  {
+    Pack kinetic(0.);
+    std::array<Pack, 3> linear{{0., 0., 0.}}, angular{{0., 0., 0.}};
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      {
+        const Batch &batch = batches[b];
+        NodalPack x        = gather(batch, displacement);
+        for (unsigned int lane = 0; lane < n_lanes; ++lane)
+          for (unsigned int a = 0; a < 4; ++a)
+            for (unsigned int i = 0; i < 3; ++i)
+              x[a][i][lane] += positions[batch.nodes[a][lane]][i];
+
+        const NodalPack v = gather(batch, velocity);
+        const NodalPack p = mass_product(b, v);
+        for (unsigned int a = 0; a < 4; ++a)
+          for (unsigned int i = 0; i < 3; ++i)
+            {
+              const unsigned int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+              kinetic += 0.5 * batch.owned * p[a][i] * v[a][i];
+              linear[i] += batch.owned * p[a][i];
+              angular[i] += batch.owned * (x[a][i1] * p[a][i2] - x[a][i2] * p[a][i1]);
+            }
+      }
+    sums.kinetic += stdx::reduce(kinetic);
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        sums.linear_momentum[i] += stdx::reduce(linear[i]);
+        sums.angular_momentum[i] += stdx::reduce(angular[i]);
+      }
+  }
+
+
+  void
+  Cells::add_motion_of_vertices(const double *displacement,
+                                const double *velocity,
+                                CellSums &sums) const
+  {
+    for (std::size_t node = 0; node < n_owned; ++node)
+      {
+        std::array<double, 3> x, p;
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            x[i] = positions[node][i] + displacement[3 * node + i];
+            p[i] = vertex_mass * velocity[3 * node + i];
+            sums.kinetic += 0.5 * p[i] * velocity[3 * node + i];
+            sums.linear_momentum[i] += p[i];
+          }
+        const std::array<double, 3> angular = cross(x, p);
+        for (unsigned int i = 0; i < 3; ++i)
+          sums.angular_momentum[i] += angular[i];
+      }
+  }
+
+
+  std::vector<CellState>
+  Cells::states(const double *displacement) const
+  {
+    std::vector<CellState> states(n_cells);
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      {
+        const Matrix3<Pack> F = deformation_gradient(b, displacement);
+
+        Matrix3<Pack> deviator = stress(batches[b], strain(b, F));
+        if (section.geometry == Geometry::plane_stress)
+          deviator(2, 2) = 0.;
+        const Pack mean = trace(deviator) / 3.;
+        for (unsigned int i = 0; i < 3; ++i)
+          deviator(i, i) -= mean;
+
+        const Pack von_mises = stdx::sqrt(1.5 * norm_square(deviator));
+        const Pack ratio     = determinant(F);
+        const Pack cosine    = 0.5 * (trace(rotation_of(b)) - 1.);
+        for (unsigned int lane = 0; lane < n_lanes && b * n_lanes + lane < n_cells; ++lane)
+          {
+            const double c             = std::min(1., std::max(-1., double(cosine[lane])));
+            states[b * n_lanes + lane] = {ratio[lane],
+                                          von_mises[lane],
+                                          std::acos(c) * 180. / M_PI,
+                                          -mean[lane]};
+          }
+      }
+    return states;
+  }
+} // namespace Supple

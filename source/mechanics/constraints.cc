@@ -1,0 +1,261 @@
+#include <supple/mechanics/constraints.h>
+
+#include <supple/base/error.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <sstream>
+
+namespace Supple
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** By differences at five times from @p time to @p time + 4 @p interval, of fourth order. */
+    double
+    rate(const Expression &displacement,
+         const Point<3> &place,
+         const double time,
+         const double interval)
+    {
+      const std::array<double, 5> weights = {{-25. / 12., 4., -3., 4. / 3., -1. / 4.}};
+      double sum                          = 0.;
+      for (unsigned int k = 0; k < weights.size(); ++k)
+        sum += weights[k] * displacement.value(place, time + k * interval);
+      return sum / interval;
+    }
+  } // namespace
+
+
+  Constraints::Constraints(const Body &body, const Parameters &parameters)
+    : body(body)
+    , held(3 * body.n_local)
+  {
+    const auto hold = [&](const std::vector<bool> &nodes, const std::array<bool, 3> &directions) {
+      for (unsigned int node = 0; node < body.n_local; ++node)
+        for (unsigned int i = 0; i < 3; ++i)
+          if (nodes[node] && directions[i])
+            held[3 * node + i] = true;
+    };
+    const std::array<bool, 3> all           = {{true, true, true}};
+    const ConstraintParameters &constraints = parameters.constraints;
+
+    for (const unsigned int id : constraints.clamped_boundaries)
+      hold(body.boundary_nodes(id, parameters.origin("Constraints/Clamped boundaries")), all);
+    if (!constraints.clamped_region.empty())
+      hold(body.region_nodes(constraints.clamped_region,
+                             parameters.origin("Constraints/Clamped region")),
+           all);
+    for (unsigned int i = 0; i < 3; ++i)
+      for (const unsigned int id : constraints.sliding_boundaries[i])
+        hold(body.boundary_nodes(
+               id, parameters.origin(std::string("Constraints/Boundaries held along ") + "xyz"[i])),
+             {{i == 0, i == 1, i == 2}});
+
+    for (unsigned int m = 0; m < parameters.motions.size(); ++m)
+      if (!parameters.motions[m].of.empty())
+        add_motion(parameters.motions[m], Parameters::motion_section(m), parameters);
+
+    complete();
+  }
+
+
+  void
+  Constraints::complete()
+  {
+    // A piece that nothing but its own nature holds is as free as a body can be.
+    std::vector<unsigned int> held_in(body.mesh.report.pieces.size()), total(held_in.size());
+    unsigned int n_counted = 0;
+    for (unsigned int dof = 0; dof < 3 * body.n_local; ++dof)
+      {
+        const bool by_nature = body.is_held_by_nature(dof);
+        held[dof]            = held[dof] || by_nature;
+        if (!held[dof] || dof >= 3 * body.n_owned)
+          continue;
+        held_owned.push_back(dof);
+        if (!by_nature)
+          held_in[body.mesh.parts->pieces[dof / 3]] = 1;
+        n_counted += !(body.mesh.section.plane() && dof % 3 == 2);
+      }
+    n_held = Utilities::MPI::sum(n_counted, body.mesh.communicator);
+    Utilities::MPI::sum(held_in, body.mesh.communicator, total);
+    for (unsigned int piece = 0; piece < total.size(); ++piece)
+      if (total[piece] == 0)
+        free_pieces.push_back(piece);
+    n_rigid_motions      = body.mesh.section.axisymmetric() ? 1 : body.mesh.section.plane() ? 3 : 6;
+    n_free_rigid_motions = count_free_rigid_motions();
+  }
+
+
+  std::string
+  Constraints::free_pieces_in_words() const
+  {
+    constexpr std::size_t n_shown = 3;
+
+    const auto &pieces = body.mesh.report.pieces;
+    if (free_pieces.empty() || free_pieces.size() == pieces.size())
+      return "";
+    std::ostringstream text;
+    text << free_pieces.size() << " of the " << pieces.size() << " pieces "
+         << (free_pieces.size() == 1 ? "is" : "are") << " not held anywhere: ";
+    for (std::size_t i = 0; i < std::min(n_shown, free_pieces.size()); ++i)
+      {
+        const MeshReport::Piece &piece = pieces[free_pieces[i]];
+        text << (i == 0 ? "" : "; ") << "that of " << piece.n_cells
+             << (piece.n_cells == 1 ? " cell" : " cells") << " in "
+             << extent_in_words(piece.box, body.mesh.section.plane() ? 2 : 3) << " m";
+      }
+    if (free_pieces.size() > n_shown)
+      text << "; and " << free_pieces.size() - n_shown << " more";
+    text << ".";
+    return text.str();
+  }
+
+
+  /**
+   * Rank of the map from rigid motions to the displacements of held degrees of freedom, by the 6x6
+   * matrix of its scalar products. Lengths are measured in diameters of the body.
+   */
+  unsigned int
+  Constraints::count_free_rigid_motions() const
+  {
+    const auto corners    = body.mesh.bounding_box.get_boundary_points();
+    const Point<3> center = body.mesh.bounding_box.center();
+    const double diameter = corners.first.distance(corners.second);
+
+    Eigen::Matrix<double, 6, 6> products = Eigen::Matrix<double, 6, 6>::Zero();
+    for (const unsigned int dof : held_owned)
+      {
+        const unsigned int i = dof % 3, i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+        const Tensor<1, 3> x               = (body.position(dof / 3) - center) / diameter;
+        Eigen::Matrix<double, 6, 1> motion = Eigen::Matrix<double, 6, 1>::Zero();
+        motion[i]                          = 1.;
+        motion[3 + i1]                     = x[i2]; // (w cross x)_i = w_i1 x_i2 - w_i2 x_i1
+        motion[3 + i2]                     = -x[i1];
+        products += motion * motion.transpose();
+      }
+    std::vector<double> sum(products.data(), products.data() + 36), total(36);
+    Utilities::MPI::sum(sum, body.mesh.communicator, total);
+    std::copy(total.begin(), total.end(), products.data());
+    if (body.mesh.section.plane()) // along z and out of the plane
+      for (const unsigned int motion : {2, 3, 4})
+        products(motion, motion) += 1.;
+    if (body.mesh.section.axisymmetric()) // away from the axis to one side
+      for (const unsigned int motion : {0, 5})
+        products(motion, motion) += 1.;
+
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(products,
+                                                                            Eigen::EigenvaluesOnly);
+    const double largest = solver.eigenvalues().maxCoeff();
+    return (solver.eigenvalues().array() <= 1e-12 * largest).count();
+  }
+
+
+  void
+  Constraints::add_motion(const MotionParameters &motion,
+                          const std::string &section,
+                          const Parameters &parameters)
+  {
+    const auto nodes =
+      body.selected_nodes(Utilities::trim(motion.of), parameters.origin(section + "/Of"));
+    const std::string origin = parameters.origin(section + "/Displacement");
+    const auto components    = Utilities::split_string_list(motion.displacement, ';');
+    if (components.size() != 3)
+      throw InputError(origin + ": found " + std::to_string(components.size()) +
+                       " expression(s); there must be 3, set apart by semicolons.");
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        if (components[i] == "free")
+          continue;
+        motions.push_back({i, Expression(components[i], 1, origin), {}, sample_of(nodes)});
+        unsigned int n_twice = 0, n_by_nature = 0;
+        for (unsigned int node = 0; node < body.n_local; ++node)
+          if (nodes[node] && body.is_held_by_nature(3 * node + i))
+            ++n_by_nature;
+          else if (nodes[node])
+            {
+              n_twice += held[3 * node + i];
+              held[3 * node + i] = true;
+              if (node < body.n_owned)
+                motions.back().nodes.push_back(node);
+            }
+        if (!motions.back().displacement.is_zero() &&
+            Utilities::MPI::max(n_by_nature, body.mesh.communicator) > 0)
+          throw InputError(origin +
+                           ": some of these vertices are on the axis and stay there; along "
+                           "x their displacement must be 0 or free.");
+        if (Utilities::MPI::max(n_twice, body.mesh.communicator) > 0)
+          throw InputError(parameters.origin(section + "/Of") +
+                           ": some of these vertices are held or moved already along " +
+                           std::string(1, "xyz"[i]) + ".");
+      }
+  }
+
+
+  Point<3>
+  Constraints::sample_of(const std::vector<bool> &nodes) const
+  {
+    unsigned int first = numbers::invalid_unsigned_int;
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      if (nodes[node])
+        first = std::min(first, body.serial_vertex[node]);
+    return body.place_of_vertex(Utilities::MPI::min(first, body.mesh.communicator));
+  }
+
+
+  void
+  Constraints::set_displacement(Vector &displacement, const double time) const
+  {
+    set_zero(displacement);
+    for (const Motion &motion : motions)
+      for (const unsigned int node : motion.nodes)
+        displacement.local_element(3 * node + motion.direction) =
+          motion.displacement.value(body.position(node), time);
+  }
+
+
+  void
+  Constraints::set_velocity(Vector &velocity, const double time, const double interval) const
+  {
+    set_zero(velocity);
+    for (const Motion &motion : motions)
+      for (const unsigned int node : motion.nodes)
+        velocity.local_element(3 * node + motion.direction) =
+          rate(motion.displacement, body.position(node), time, interval);
+  }
+
+
+  bool
+  Constraints::jump(const double start, const double end) const
+  {
+    const double interval = 1e-4 * (end - start), round_off = 1e-6 * body.mesh.diameter();
+    return std::any_of(motions.begin(), motions.end(), [&](const Motion &motion) {
+      const Expression &u = motion.displacement;
+      const double way    = std::abs(u.value(motion.sample, end) - u.value(motion.sample, start));
+      const double speeds = std::abs(rate(u, motion.sample, start, interval)) +
+                            std::abs(rate(u, motion.sample, end, -interval));
+      return way > 2. * (end - start) * speeds + round_off;
+    });
+  }
+
+
+  void
+  Constraints::copy_held(Vector &to, const Vector &from) const
+  {
+    for (const unsigned int dof : held_owned)
+      to.local_element(dof) = from.local_element(dof);
+  }
+
+
+  void
+  Constraints::set_zero(Vector &vector) const
+  {
+    for (const unsigned int dof : held_owned)
+      vector.local_element(dof) = 0.;
+  }
+} // namespace Supple

@@ -1,0 +1,222 @@
+#include <supple/mesh/distributed_mesh.h>
+
+#include <supple/base/compatibility.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/distributed/fully_distributed_tria.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/grid/tria.h>
+#include <deal.II/grid/tria_description.h>
+
+#include <algorithm>
+
+namespace Supple
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    std::vector<CellData<dim>>
+    cell_data(const SerialMesh &mesh)
+    {
+      std::vector<CellData<dim>> cells;
+      cells.reserve(mesh.cells.size());
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        {
+          const auto vertices = mesh.cell_vertices(c);
+          cells.emplace_back(vertices.size());
+          std::copy(vertices.begin(), vertices.end(), cells.back().vertices.begin());
+        }
+      return cells;
+    }
+
+
+    /** What deal.II wants to know of a part. */
+    template <int dim>
+    TriangulationDescription::Description<dim, 3>
+    description(const MeshPart &part, const MPI_Comm communicator)
+    {
+      TriangulationDescription::Description<dim, 3> description;
+      description.comm                                = communicator;
+      description.settings                            = TriangulationDescription::default_setting;
+      description.smoothing                           = Triangulation<dim, 3>::none;
+      description.coarse_cells                        = cell_data<dim>(part.mesh);
+      description.coarse_cell_vertices                = part.mesh.vertices;
+      description.coarse_cell_index_to_coarse_cell_id = {part.serial_cell.begin(),
+                                                         part.serial_cell.end()};
+      description.cell_infos.emplace_back();
+      for (std::size_t c = 0; c < part.serial_cell.size(); ++c)
+        {
+          TriangulationDescription::CellData<dim> cell;
+          cell.id                 = CellId(part.serial_cell[c], {}).template to_binary<dim>();
+          cell.subdomain_id       = part.owner[c];
+          cell.level_subdomain_id = numbers::invalid_subdomain_id;
+          cell.manifold_id        = numbers::flat_manifold_id;
+          cell.manifold_line_ids.fill(numbers::flat_manifold_id);
+          cell.manifold_quad_ids.fill(numbers::flat_manifold_id);
+          description.cell_infos.back().push_back(cell);
+        }
+      return description;
+    }
+
+
+    /** deal.II's mesh of a part: a distributed one where there are others. */
+    template <int dim>
+    std::unique_ptr<Triangulation<dim, 3>>
+    triangulate(const MeshPart &part, const MPI_Comm communicator)
+    {
+      if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+        {
+          auto mesh = std::make_unique<Triangulation<dim, 3>>();
+          mesh->create_triangulation(part.mesh.vertices, cell_data<dim>(part.mesh), SubCellData());
+          return mesh;
+        }
+      auto mesh = std::make_unique<parallel::fullydistributed::Triangulation<dim, 3>>(communicator);
+      mesh->create_triangulation(description<dim>(part, communicator));
+      return mesh;
+    }
+
+
+    /** What points along the normal of a face, out of the body if the nodes are in that order. */
+    Tensor<1, 3>
+    normal_direction(const std::vector<Point<3>> &x)
+    {
+      if (x.size() == 3)
+        return cross_product_3d(x[1] - x[0], x[2] - x[0]);
+      return cross_product_3d(x[1] - x[0], Point<3>(0., 0., 1.));
+    }
+
+
+    Point<3>
+    center(const SerialMesh &mesh, const std::size_t cell)
+    {
+      Point<3> center;
+      for (const unsigned int vertex : mesh.cell_vertices(cell))
+        center += mesh.vertices[vertex] / (mesh.dimension + 1.);
+      return center;
+    }
+  } // namespace
+
+
+  DistributedMesh::DistributedMesh(const MeshPart &part, const MPI_Comm communicator)
+    : dimension(part.mesh.dimension)
+  {
+    const std::vector<unsigned int> node_of =
+      dimension == 2 ? number_nodes<2>(part, communicator) : number_nodes<3>(part, communicator);
+    n_owned = partitioner->locally_owned_size() / 3;
+    n_local = n_owned + partitioner->n_ghost_indices() / 3;
+    n_cells = part.mesh.cells.size();
+    collect_nodes(part, node_of);
+    collect_cells(part, node_of);
+    collect_faces(part, node_of);
+    if (part.n_patches > 0)
+      find_patch_partitioner(part.n_patches, communicator);
+  }
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  DistributedMesh::number_nodes(const MeshPart &part, const MPI_Comm communicator)
+  {
+    const std::unique_ptr<Triangulation<dim, 3>> mesh = triangulate<dim>(part, communicator);
+    DoFHandler<dim, 3> dof_handler(*mesh);
+    dof_handler.distribute_dofs(FESystem<dim, 3>(FE_SimplexP<dim, 3>(1), 3));
+    partitioner =
+      std::make_shared<Utilities::MPI::Partitioner>(dof_handler.locally_owned_dofs(),
+                                                    Compatibility::locally_relevant_dofs(
+                                                      dof_handler),
+                                                    communicator);
+
+    std::vector<unsigned int> node_of(part.mesh.vertices.size());
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      for (const unsigned int a : cell->vertex_indices())
+        {
+          std::array<unsigned int, 3> numbers;
+          for (unsigned int i = 0; i < 3; ++i)
+            numbers[i] = partitioner->global_to_local(cell->vertex_dof_index(a, i));
+          // The rest of the program counts on three numbers in a row for each vertex.
+          AssertThrow(numbers[0] % 3 == 0 && numbers[1] == numbers[0] + 1 &&
+                        numbers[2] == numbers[0] + 2,
+                      ExcInternalError());
+          node_of[cell->vertex_index(a)] = numbers[0] / 3;
+        }
+    return node_of;
+  }
+
+
+  void
+  DistributedMesh::collect_nodes(const MeshPart &part, const std::vector<unsigned int> &node_of)
+  {
+    positions.resize(n_local);
+    serial_vertex.resize(n_local);
+    pieces.resize(n_local);
+    for (std::size_t v = 0; v < node_of.size(); ++v)
+      {
+        for (unsigned int d = 0; d < 3; ++d)
+          positions[node_of[v]][d] = part.mesh.vertices[v][d];
+        serial_vertex[node_of[v]] = part.serial_vertex[v];
+        pieces[node_of[v]]        = part.mesh.pieces[v];
+      }
+  }
+
+
+  void
+  DistributedMesh::collect_cells(const MeshPart &part, const std::vector<unsigned int> &node_of)
+  {
+    const unsigned int rank = Utilities::MPI::this_mpi_process(partitioner->get_mpi_communicator());
+    cells.reserve(n_cells);
+    for (unsigned int c = 0; c < n_cells; ++c)
+      {
+        const auto vertices = part.mesh.cell_vertices(c);
+        LocalCell cell;
+        for (unsigned int a = 0; a < 4; ++a)
+          cell.nodes[a] = node_of[vertices[std::min(a, dimension)]];
+        cell.material_id = part.mesh.materials[c];
+        cell.index       = c;
+        cell.patch       = part.mesh.patches.empty() ? 0 : part.mesh.patches[c];
+        cell.owned       = part.owner[c] == rank;
+        cells.push_back(cell);
+      }
+  }
+
+
+  void
+  DistributedMesh::collect_faces(const MeshPart &part, const std::vector<unsigned int> &node_of)
+  {
+    for (const SerialMesh::BoundaryFace &of_part : part.mesh.boundary)
+      {
+        LocalFace face;
+        std::vector<Point<3>> x;
+        for (const unsigned int vertex : part.mesh.face_vertices(of_part))
+          {
+            face.nodes[x.size()] = node_of[vertex];
+            x.push_back(part.mesh.vertices[vertex]);
+          }
+        if (normal_direction(x) * (center(part.mesh, of_part.cell) - x[0]) > 0.)
+          std::swap(face.nodes[dimension - 2], face.nodes[dimension - 1]);
+        if (dimension == 2)
+          face.nodes[2] = face.nodes[1];
+        face.boundary_id = of_part.boundary_id;
+        face.cell_index  = of_part.cell;
+        face.owned       = cells[of_part.cell].owned;
+        faces.push_back(face);
+      }
+  }
+
+
+  void
+  DistributedMesh::find_patch_partitioner(const unsigned int n_patches, const MPI_Comm communicator)
+  {
+    IndexSet owned(n_patches), known(n_patches);
+    for (const LocalCell &cell : cells)
+      {
+        known.add_index(cell.patch);
+        if (cell.owned)
+          owned.add_index(cell.patch);
+      }
+    patch_partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned, known, communicator);
+  }
+} // namespace Supple

@@ -1,0 +1,258 @@
+#include <supple/observe/diagnostics.h>
+
+#include <supple/mechanics/rotation.h>
+#include <supple/time/energy_guard.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Supple
+{
+  using namespace dealii;
+
+  std::vector<std::string>
+  Measurement::column_names()
+  {
+    return {"step",
+            "time",
+            "dt",
+            "kinetic",
+            "elastic",
+            "potential",
+            "dissipated",
+            "total",
+            "work",
+            "px",
+            "py",
+            "pz",
+            "lx",
+            "ly",
+            "lz",
+            "min_volume_ratio",
+            "max_volume_ratio",
+            "inverted",
+            "newton_iterations",
+            "linear_iterations",
+            "seconds"};
+  }
+
+
+  std::vector<double>
+  Measurement::row() const
+  {
+    const auto &p = linear_momentum, &l = angular_momentum;
+    return {double(step),
+            time,
+            dt,
+            kinetic,
+            elastic,
+            potential,
+            dissipated,
+            total,
+            work,
+            p[0],
+            p[1],
+            p[2],
+            l[0],
+            l[1],
+            l[2],
+            min_volume_ratio,
+            max_volume_ratio,
+            double(inverted),
+            double(newton_iterations),
+            double(linear_iterations),
+            seconds};
+  }
+
+
+  std::string
+  Measurement::not_finite() const
+  {
+    const std::vector<double> values = row();
+    if (std::all_of(values.begin(), values.end(), [](const double x) { return std::isfinite(x); }))
+      return ""; // as in nearly all steps
+    const std::vector<std::string> names = column_names();
+    std::string list;
+    for (unsigned int i = 0; i < values.size(); ++i)
+      if (!std::isfinite(values[i]))
+        list += (list.empty() ? "" : ", ") + names[i];
+    return list;
+  }
+
+
+  double
+  distance_from_shape(const Body &body, const Vector &displacement)
+  {
+    const MPI_Comm communicator = body.mesh.communicator;
+    const auto place            = [&](const unsigned int node) {
+      Tensor<1, 3> u;
+      for (unsigned int i = 0; i < 3; ++i)
+        u[i] = displacement.local_element(3 * node + i);
+      return u + Tensor<1, 3>(body.position(node));
+    };
+
+    Tensor<1, 3> rest, now; // means
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      {
+        rest += Tensor<1, 3>(body.position(node));
+        now += place(node);
+      }
+    const double n_nodes = Utilities::MPI::sum(double(body.n_owned), communicator);
+    rest                 = Utilities::MPI::sum(rest, communicator) / n_nodes;
+    now                  = Utilities::MPI::sum(now, communicator) / n_nodes;
+    if (body.mesh.section.axisymmetric())
+      for (const unsigned int i : {0, 2})
+        rest[i] = now[i] = 0.;
+
+    Tensor<2, 3> moments;
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      moments += outer_product(place(node) - now, Tensor<1, 3>(body.position(node)) - rest);
+    moments = Utilities::MPI::sum(moments, communicator);
+    if (body.mesh.section.plane())
+      moments[2][2] = moments.norm(); // a plane body is not turned over
+    Matrix3<double> M = Matrix3<double>::identity();
+    for (unsigned int k = 0; k < 9 && !body.mesh.section.axisymmetric(); ++k)
+      M.entries[k] = moments[k / 3][k % 3];
+    const Matrix3<double> R = nearest_rotation(M);
+
+    double largest = 0.;
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      {
+        const Tensor<1, 3> arm = Tensor<1, 3>(body.position(node)) - rest;
+        Tensor<1, 3> distance  = place(node) - now;
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            distance[i] -= R(i, j) * arm[j];
+        largest = std::max(largest, distance.norm());
+      }
+    return Utilities::MPI::max(largest, communicator);
+  }
+
+
+  Diagnostics::Diagnostics(const Body &body, const Loads &loads, const bool stationary)
+    : body(body)
+    , loads(loads)
+    , stationary(stationary)
+  {
+  }
+
+
+  void
+  Diagnostics::note_extremes(const Measurement &measurement, const double rise)
+  {
+    largest_energy = std::max({largest_energy, std::abs(measurement.total), std::abs(work)});
+    worst.min_volume_ratio = std::min(worst.min_volume_ratio, measurement.min_volume_ratio);
+    worst.max_volume_ratio = std::max(worst.max_volume_ratio, measurement.max_volume_ratio);
+    worst.most_inverted    = std::max(worst.most_inverted, measurement.inverted);
+    if (rise > energy_accuracy * largest_energy)
+      {
+        ++worst.energy_rises;
+        worst.energy_risen += rise;
+      }
+  }
+
+
+  nlohmann::json
+  Diagnostics::save() const
+  {
+    return {{"elastic", elastic},
+            {"total", total},
+            {"dissipated", dissipated},
+            {"work", work},
+            {"largest_energy", largest_energy},
+            {"energy_rises", worst.energy_rises},
+            {"energy_risen", worst.energy_risen},
+            {"most_inverted", worst.most_inverted},
+            {"min_volume_ratio", worst.min_volume_ratio},
+            {"max_volume_ratio", worst.max_volume_ratio},
+            {"not_finite", worst.not_finite}};
+  }
+
+
+  void
+  Diagnostics::load(const nlohmann::json &saved)
+  {
+    first                  = false;
+    elastic                = saved.at("elastic");
+    total                  = saved.at("total");
+    dissipated             = saved.at("dissipated");
+    work                   = saved.at("work");
+    largest_energy         = saved.at("largest_energy");
+    worst.energy_rises     = saved.at("energy_rises");
+    worst.energy_risen     = saved.at("energy_risen");
+    worst.most_inverted    = saved.at("most_inverted");
+    worst.min_volume_ratio = saved.at("min_volume_ratio");
+    worst.max_volume_ratio = saved.at("max_volume_ratio");
+    worst.not_finite       = saved.at("not_finite");
+  }
+
+
+  Measurement
+  Diagnostics::measure_body(const State &state, const double load_factor) const
+  {
+    const bool moving = state.n_blocks() > 1;
+    const GhostValues displacement(state.block(0));
+    const GhostValues velocity(state.block(moving ? 1 : 0));
+    const CellSums local = body.sums(displacement.data(), moving ? velocity.data() : nullptr);
+
+    const MPI_Comm communicator = body.mesh.communicator;
+    std::vector<double> sums    = {local.kinetic, local.elastic, double(local.inverted)};
+    sums.insert(sums.end(), local.linear_momentum.begin(), local.linear_momentum.end());
+    sums.insert(sums.end(), local.angular_momentum.begin(), local.angular_momentum.end());
+    std::vector<double> global(sums.size());
+    Utilities::MPI::sum(sums, communicator, global);
+
+    Measurement result;
+    result.kinetic          = global[0];
+    result.elastic          = global[1];
+    result.inverted         = static_cast<unsigned int>(global[2]);
+    result.linear_momentum  = {{global[3], global[4], global[5]}};
+    result.angular_momentum = {{global[6], global[7], global[8]}};
+    result.min_volume_ratio = Utilities::MPI::min(local.min_volume_ratio, communicator);
+    result.max_volume_ratio = Utilities::MPI::max(local.max_volume_ratio, communicator);
+    result.potential        = load_factor * loads.potential(state.block(0));
+    result.total            = result.kinetic + result.elastic + result.potential;
+    return result;
+  }
+
+
+  Measurement
+  Diagnostics::measure(const unsigned int step,
+                       const double time,
+                       const double seconds,
+                       const State &state,
+                       const StepReport &report)
+  {
+    Measurement result       = measure_body(state, stationary ? time : 1.);
+    result.step              = step;
+    result.time              = time;
+    result.dt                = report.dt;
+    result.newton_iterations = report.newton_iterations;
+    result.linear_iterations = report.linear_iterations;
+    result.seconds           = seconds;
+
+    result.dissipated = dissipated;
+    if (!first && report.expended)
+      result.dissipated += *report.expended - (result.elastic - elastic);
+    else if (!first && !stationary)
+      result.dissipated += report.load_work - (result.total - total);
+    result.work = work + report.load_work;
+    if (!result.not_finite().empty())
+      {
+        ++worst.not_finite;
+        return result;
+      }
+
+    note_extremes(result, first || stationary ? 0. : result.total - total - report.load_work);
+    dissipated = result.dissipated;
+    work       = result.work;
+    elastic    = result.elastic;
+    total      = result.total;
+    first      = false;
+    return result;
+  }
+} // namespace Supple

@@ -1,0 +1,168 @@
+#include <supple/observe/probes.h>
+
+#include <supple/base/error.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace Supple
+{
+  using namespace dealii;
+
+  Probes::Probes(const Body &body, const Parameters &parameters)
+    : body(body)
+  {
+    const ProbeParameters &wanted = parameters.probes;
+
+    for (unsigned int m = 0; m < parameters.motions.size(); ++m)
+      if (!parameters.motions[m].of.empty())
+        add_motion(parameters.motions[m].of, m, parameters);
+
+    const std::string points = parameters.origin("Probes/Points");
+    for (const auto &[name, text] : named_list(wanted.points, points))
+      add_point(name, text, points);
+
+    const std::string boundaries = parameters.origin("Probes/Boundaries");
+    for (const auto &[name, text] : named_list(wanted.boundaries, boundaries))
+      add_nodes(name,
+                "boundary " + text,
+                body.boundary_nodes(boundary_id(text, boundaries), boundaries));
+
+    const std::string regions = parameters.origin("Probes/Regions");
+    for (const auto &[name, text] : named_list(wanted.regions, regions))
+      add_nodes(name, "region " + text, body.region_nodes(text, regions));
+
+    for (const Probe &probe : probes)
+      for (const Probe &other : probes)
+        if (&probe != &other && probe.name == other.name)
+          throw InputError("Probes: the name '" + probe.name +
+                           "' is given twice. (What is moved has the names motion, motion2 ...)");
+  }
+
+
+  void
+  Probes::add_motion(const std::string &of, const unsigned int motion, const Parameters &parameters)
+  {
+    const std::string origin = parameters.origin(Parameters::motion_section(motion) + "/Of");
+    const std::string name   = "motion" + (motion == 0 ? "" : std::to_string(motion + 1));
+    const std::string text   = Utilities::trim(of);
+    const std::string point  = text.rfind("nearest to ", 0) == 0 ? text.substr(11) : "";
+    const auto nodes         = body.selected_nodes(text, origin);
+    if (!point.empty() || text.rfind("vertex ", 0) == 0)
+      add_point(name, point.empty() ? text : point, origin);
+    else
+      add_nodes(name, text, nodes);
+  }
+
+
+  void
+  Probes::add_point(const std::string &name, const std::string &text, const std::string &origin)
+  {
+    if (text.rfind("vertex ", 0) == 0)
+      {
+        add(name,
+            body.selected_nodes(text, origin),
+            body.vertex_in_words(Utilities::string_to_int(text.substr(7))));
+        return;
+      }
+    Point<3> point;
+    try
+      {
+        const auto numbers = Utilities::string_to_double(Utilities::split_string_list(text, ','));
+        AssertThrow(numbers.size() == 3 && std::isfinite(numbers[0] + numbers[1] + numbers[2]),
+                    ExcInternalError());
+        point = Point<3>(numbers[0], numbers[1], numbers[2]);
+      }
+    catch (const std::exception &)
+      {
+        throw InputError(origin + ": '" + text +
+                         "' is no point. A point is three numbers set apart by commas, or vertex "
+                         "INDEX.");
+      }
+
+    constexpr double margin       = 0.01; // of the box's sides
+    const auto [vertex, distance] = body.nearest_vertex(point);
+    std::vector<bool> nodes(body.n_local);
+    for (unsigned int node = 0; node < body.n_local; ++node)
+      nodes[node] = body.serial_vertex[node] == vertex;
+    std::ostringstream description;
+    description << body.vertex_in_words(vertex) << ", " << distance
+                << " m from the point asked for";
+    add(name, nodes, description.str());
+    if (!body.mesh.bounding_box.point_inside(point, margin))
+      points_outside.push_back("Probe " + name + " follows " + description.str() +
+                               ", which is outside of the body.");
+  }
+
+
+  void
+  Probes::add_nodes(const std::string &name,
+                    const std::string &what,
+                    const std::vector<bool> &nodes)
+  {
+    add(name, nodes, what);
+    probes.back().description += ", " + std::to_string(probes.back().n_nodes) + " vertices";
+  }
+
+
+  void
+  Probes::add(const std::string &name,
+              const std::vector<bool> &nodes,
+              const std::string &description)
+  {
+    Probe probe;
+    probe.name        = name;
+    probe.description = description;
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      if (nodes[node])
+        probe.nodes.push_back(node);
+    probe.n_nodes = Utilities::MPI::sum(probe.nodes.size(), body.mesh.communicator);
+    probes.push_back(probe);
+  }
+
+
+  std::vector<std::string>
+  Probes::column_names() const
+  {
+    std::vector<std::string> names = {"step", "time"};
+    for (const Probe &probe : probes)
+      for (const char quantity : {'u', 'v', 'f'})
+        for (const char direction : {'x', 'y', 'z'})
+          names.push_back(probe.name + "." + quantity + direction);
+    return names;
+  }
+
+
+  std::vector<double>
+  Probes::values(const State &state, const Vector &reactions) const
+  {
+    std::vector<double> local(9 * probes.size());
+    const bool moving = state.n_blocks() > 1;
+    for (std::size_t p = 0; p < probes.size(); ++p)
+      for (const unsigned int node : probes[p].nodes)
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            const unsigned int dof = 3 * node + i;
+            local[9 * p + i] += state.block(0).local_element(dof) / probes[p].n_nodes;
+            if (moving)
+              local[9 * p + 3 + i] += state.block(1).local_element(dof) / probes[p].n_nodes;
+            local[9 * p + 6 + i] += reactions.local_element(dof);
+          }
+    std::vector<double> values(local.size());
+    Utilities::MPI::sum(local, body.mesh.communicator, values);
+    return values;
+  }
+
+
+  std::vector<std::string>
+  Probes::descriptions() const
+  {
+    std::vector<std::string> lines;
+    for (const Probe &probe : probes)
+      lines.push_back(probe.name + ": " + probe.description);
+    return lines;
+  }
+} // namespace Supple

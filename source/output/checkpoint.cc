@@ -1,0 +1,258 @@
+#include <supple/base/error.h>
+#include <supple/base/tables.h>
+#include <supple/output/checkpoint.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <boost/crc.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace Supple
+{
+  using namespace dealii;
+  using Json = nlohmann::json;
+
+  namespace
+  {
+    const std::string head = "supple checkpoint 1\n";
+
+    std::string
+    checksum(const std::string &content)
+    {
+      boost::crc_32_type sum;
+      sum.process_bytes(content.data(), content.size());
+      std::ostringstream text;
+      text << sum.checksum() << '\n';
+      return text.str();
+    }
+
+
+    /** The content of a file; nothing if it is damaged or not there. */
+    std::optional<std::string>
+    whole_content(const std::string &file)
+    {
+      std::ifstream stream(file, std::ios::binary);
+      std::ostringstream text;
+      text << stream.rdbuf();
+      const std::string all = text.str();
+      const auto end        = all.find('\n', std::min(head.size(), all.size()));
+      if (!stream || all.rfind(head, 0) != 0 || end == std::string::npos)
+        return {};
+      const std::string content = all.substr(end + 1);
+      if (all.substr(head.size(), end + 1 - head.size()) != checksum(content))
+        return {};
+      return content;
+    }
+
+
+    /** The first line of the one that is not in the other. */
+    std::string
+    first_difference(const std::string &one, const std::string &other)
+    {
+      std::istringstream lines(one), other_lines(other);
+      std::string line, other_line;
+      while (std::getline(lines, line))
+        if (!std::getline(other_lines, other_line) || line != other_line)
+          return line;
+      return "";
+    }
+  } // namespace
+
+
+  Checkpoint::Checkpoint(const Body &body, const Parameters &parameters, const std::string &folder)
+    : body(body)
+    , parameters(parameters)
+    , file(folder + "/checkpoint.cbor")
+    , previous_file(folder + "/checkpoint.previous.cbor")
+    , last_time(std::chrono::steady_clock::now())
+  {
+  }
+
+
+  bool
+  Checkpoint::due(const unsigned int step) const
+  {
+    const CheckpointParameters &wanted = parameters.checkpoint;
+    if (wanted.every > 0 && step - last_step >= wanted.every)
+      return true;
+    if (wanted.minutes == 0.)
+      return false;
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - last_time;
+    return Utilities::MPI::max(passed.count() >= 60. * wanted.minutes ? 1 : 0,
+                               body.mesh.communicator) > 0;
+  }
+
+
+  std::string
+  Checkpoint::identity() const
+  {
+    std::ostringstream used, kept;
+    parameters.print(used);
+    std::istringstream lines(used.str());
+    std::string line, section;
+    const bool dynamic = parameters.time.problem == TimeParameters::Problem::dynamic;
+    while (std::getline(lines, line))
+      {
+        if (line.rfind("subsection ", 0) == 0)
+          section = line.substr(11);
+        const bool is_end = section == "Time" && line.find("set Steps ") != std::string::npos;
+        const bool is_threads =
+          section == "Solver" && line.find("set Threads ") != std::string::npos;
+        if (section != "Output" && section != "Checkpoint" && !(is_end && dynamic) && !is_threads &&
+            line != "" && line[0] != '#')
+          kept << line << '\n';
+      }
+    kept << body.mesh.n_cells << " cells, " << body.mesh.n_vertices << " vertices in "
+         << body.mesh.extent() << " m\n";
+    return kept.str();
+  }
+
+
+  std::vector<double>
+  Checkpoint::gathered(const Vector &vector) const
+  {
+    std::vector<double> own;
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      {
+        own.push_back(body.serial_vertex[node]);
+        for (unsigned int i = 0; i < 3; ++i)
+          own.push_back(vector.local_element(3 * node + i));
+      }
+    std::vector<double> values(3 * body.mesh.n_vertices);
+    for (const auto &part : Utilities::MPI::gather(body.mesh.communicator, own))
+      for (std::size_t k = 0; k < part.size(); k += 4)
+        std::copy_n(&part[k + 1], 3, &values[3 * static_cast<std::size_t>(part[k])]);
+    return values;
+  }
+
+
+  void
+  Checkpoint::scatter(Vector &vector, const std::vector<double> &values) const
+  {
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      for (unsigned int i = 0; i < 3; ++i)
+        vector.local_element(3 * node + i) = values[3 * body.serial_vertex[node] + i];
+  }
+
+
+  void
+  Checkpoint::write(const unsigned int step,
+                    const std::vector<const Vector *> &vectors,
+                    const Json &rest)
+  {
+    Json all;
+    for (const Vector *vector : vectors)
+      all["vectors"].push_back(gathered(*vector));
+    all["identity"] = identity();
+    all["step"]     = step;
+    all["rest"]     = rest;
+    if (Utilities::MPI::this_mpi_process(body.mesh.communicator) == 0)
+      {
+        std::string content;
+        Json::to_cbor(all, content);
+        std::error_code problem; // write_whole_file() speaks of a folder that is gone
+        if (whole_content(file)) // a damaged one must not take the place of a whole one
+          std::filesystem::rename(file, previous_file, problem);
+        write_whole_file(file, head + checksum(content) + content);
+      }
+    last_step = step;
+    last_time = std::chrono::steady_clock::now();
+  }
+
+
+  std::string
+  Checkpoint::read_content()
+  {
+    bool any = false;
+    for (const std::string &name : {file, previous_file})
+      if (std::filesystem::exists(name))
+        {
+          if (const auto content = whole_content(name))
+            {
+              damaged = any;
+              return *content;
+            }
+          any = true;
+        }
+    if (any)
+      throw InputError(file +
+                       " is damaged, and there is no whole one before it. Delete it, or set "
+                       "Checkpoint/Resume = never, to begin anew.");
+    return "";
+  }
+
+
+  void
+  Checkpoint::refuse_content() const
+  {
+    throw InputError((damaged ? previous_file : file) +
+                     " is foreign: it is whole, but has not what this program keeps in a "
+                     "checkpoint. Name another folder with --output, or set Checkpoint/Resume = "
+                     "never, to begin anew.");
+  }
+
+
+  std::optional<Json>
+  Checkpoint::read(const std::vector<Vector *> &vectors, const unsigned int n_needed)
+  {
+    // The first process reads; all say the same if it is wrong.
+    const MPI_Comm communicator = body.mesh.communicator;
+    std::string content, problem;
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+      try
+        {
+          content = read_content();
+        }
+      catch (const InputError &error)
+        {
+          problem = error.what();
+        }
+    problem = Utilities::MPI::broadcast(communicator, problem);
+    if (!problem.empty())
+      throw InputError(problem);
+    content = Utilities::MPI::broadcast(communicator, content);
+    damaged = Utilities::MPI::broadcast(communicator, damaged ? 1 : 0) == 1;
+    if (content.empty())
+      return {};
+    try
+      {
+        return unpack(Json::from_cbor(content), vectors, n_needed);
+      }
+    catch (const Json::exception &)
+      {
+        refuse_content();
+      }
+  }
+
+
+  Json
+  Checkpoint::unpack(const Json &all,
+                     const std::vector<Vector *> &vectors,
+                     const unsigned int n_needed)
+  {
+    const std::string &name = damaged ? previous_file : file;
+    const std::string found = all.at("identity"), mine = identity();
+    if (found != mine)
+      throw InputError(name + " is of another scene: there '" + first_difference(found, mine) +
+                       "', here '" + first_difference(mine, found) +
+                       "'. Name another folder with --output, or set Checkpoint/Resume = never.");
+    const auto saved = all.at("vectors").get<std::vector<std::vector<double>>>();
+    if (saved.size() < n_needed)
+      refuse_content();
+    for (unsigned int k = 0; k < std::min(saved.size(), vectors.size()); ++k)
+      {
+        if (saved[k].size() != 3 * body.mesh.n_vertices)
+          refuse_content();
+        scatter(*vectors[k], saved[k]);
+      }
+    last_step     = all.at("step");
+    read_in_words = "step " + std::to_string(last_step) + " of " +
+                    std::filesystem::path(name).filename().string();
+    return all.at("rest");
+  }
+} // namespace Supple

@@ -1,0 +1,378 @@
+#include <supple/base/error.h>
+#include <supple/output/film.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <numeric>
+#include <set>
+
+namespace Supple
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const std::string magic     = "supple frames 1\n";
+    const std::size_t head_size = magic.size() + sizeof(std::uint64_t);
+
+
+    template <class Value>
+    std::vector<Value>
+    gathered(const std::vector<Value> &own, const MPI_Comm communicator)
+    {
+      std::vector<Value> all;
+      for (const std::vector<Value> &part : Utilities::MPI::gather(communicator, own))
+        all.insert(all.end(), part.begin(), part.end());
+      return all;
+    }
+
+
+    /** Where each of these comes to stand when they are sorted. */
+    template <class Key>
+    std::vector<unsigned int>
+    places_when_sorted(const std::vector<Key> &keys)
+    {
+      std::vector<unsigned int> order(keys.size()), place(keys.size());
+      std::iota(order.begin(), order.end(), 0);
+      std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
+        return keys[a] < keys[b];
+      });
+      for (unsigned int i = 0; i < order.size(); ++i)
+        place[order[i]] = i;
+      return place;
+    }
+
+
+    template <class Value>
+    void
+    append(std::vector<unsigned char> &bytes, const std::vector<Value> &values)
+    {
+      const auto *const begin = reinterpret_cast<const unsigned char *>(values.data());
+      bytes.insert(bytes.end(), begin, begin + values.size() * sizeof(Value));
+    }
+
+
+    template <class Iterator>
+    std::vector<std::uint16_t>
+    in_16_bits(Iterator value, const Iterator end, const std::vector<double> &range)
+    {
+      std::vector<std::uint16_t> bits;
+      const double width = range[1] - range[0];
+      for (; value != end; ++value)
+        bits.push_back(width > 0. ? std::uint16_t(std::lround(
+                                      65535. * std::clamp((*value - range[0]) / width, 0., 1.)))
+                                  : 0);
+      return bits;
+    }
+
+
+    std::vector<std::int16_t>
+    in_16_bits(const std::vector<float> &values, const double largest)
+    {
+      std::vector<std::int16_t> bits;
+      for (const float value : values)
+        bits.push_back(largest > 0.
+                         ? std::int16_t(std::lround(32767. * std::clamp(value / largest, -1., 1.)))
+                         : 0);
+      return bits;
+    }
+
+
+    /** So many of them, first and last included, as far apart as they can be. */
+    std::vector<unsigned int>
+    spread(const unsigned int n_taken, const unsigned int n)
+    {
+      std::vector<unsigned int> taken;
+      for (unsigned int i = 0; i < n_taken; ++i)
+        taken.push_back(n_taken == 1 ? 0 : std::size_t(i) * (n - 1) / (n_taken - 1));
+      return taken;
+    }
+  } // namespace
+
+
+  Film::Film(const Body &body, const std::string &folder)
+    : body(body)
+    , file(folder + "/report.frames")
+    , root(Utilities::MPI::this_mpi_process(body.mesh.communicator) == 0)
+  {
+    find_surface();
+    gather_surface();
+  }
+
+
+  void
+  Film::find_surface()
+  {
+    const DistributedMesh &parts = *body.mesh.parts;
+    std::vector<bool> on_surface(body.n_local, false);
+    std::vector<unsigned int> material_of(parts.n_cells);
+    const auto add = [&](const auto &part, const unsigned int cell_index) {
+      const std::array<unsigned int, 3> nodes = {{part.nodes[0], part.nodes[1], part.nodes[2]}};
+      for (const unsigned int node : nodes)
+        on_surface[node] = true;
+      if (part.owned)
+        own_triangles.push_back({nodes, cell_index, material_of[cell_index]});
+    };
+    for (const LocalCell &cell : parts.cells)
+      {
+        material_of[cell.index] = cell.material_id;
+        if (body.mesh.section.plane())
+          add(cell, cell.index);
+      }
+    if (!body.mesh.section.plane())
+      for (const LocalFace &face : parts.faces)
+        add(face, face.cell_index);
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      if (on_surface[node])
+        own_nodes.push_back(node);
+  }
+
+
+  void
+  Film::gather_surface()
+  {
+    std::vector<unsigned int> vertices, corners;
+    std::vector<float> positions;
+    for (const unsigned int node : own_nodes)
+      {
+        vertices.push_back(body.serial_vertex[node]);
+        positions.insert(positions.end(), body.positions[node].begin(), body.positions[node].end());
+      }
+    std::vector<unsigned int> unsorted_materials;
+    for (const Triangle &triangle : own_triangles)
+      {
+        for (const unsigned int node : triangle.nodes)
+          corners.push_back(body.serial_vertex[node]);
+        unsorted_materials.push_back(triangle.material);
+      }
+
+    const MPI_Comm communicator = body.mesh.communicator;
+    vertices                    = gathered(vertices, communicator);
+    corners                     = gathered(corners, communicator);
+    positions                   = gathered(positions, communicator);
+    unsorted_materials          = gathered(unsorted_materials, communicator);
+    if (root)
+      sort_surface(vertices, positions, corners, unsorted_materials);
+  }
+
+
+  void
+  Film::sort_surface(std::vector<unsigned int> vertices,
+                     const std::vector<float> &positions,
+                     const std::vector<unsigned int> &corners,
+                     const std::vector<unsigned int> &unsorted_materials)
+  {
+    vertex_place = places_when_sorted(vertices);
+    rest.resize(positions.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      std::copy_n(&positions[3 * i], 3, &rest[3 * vertex_place[i]]);
+    std::sort(vertices.begin(), vertices.end());
+    std::vector<std::array<unsigned int, 3>> unsorted(corners.size() / 3);
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      unsorted[i / 3][i % 3] =
+        std::lower_bound(vertices.begin(), vertices.end(), corners[i]) - vertices.begin();
+    for (std::array<unsigned int, 3> &triangle : unsorted) // deal.II may begin with any of them
+      std::rotate(triangle.begin(),
+                  std::min_element(triangle.begin(), triangle.end()),
+                  triangle.end());
+    triangle_place = places_when_sorted(unsorted);
+    triangles.resize(unsorted.size());
+    materials.resize(unsorted.size());
+    for (std::size_t i = 0; i < unsorted.size(); ++i)
+      {
+        triangles[triangle_place[i]] = unsorted[i];
+        materials[triangle_place[i]] = unsorted_materials[i];
+      }
+  }
+
+
+  std::size_t
+  Film::frame_size() const
+  {
+    return 2 * sizeof(double) + (rest.size() + 2 * triangles.size()) * sizeof(float);
+  }
+
+
+  void
+  Film::open(const bool anew)
+  {
+    stream.open(file, std::ios::binary | (anew ? std::ios::trunc : std::ios::app));
+    if (anew)
+      {
+        stream << magic;
+        stream.write(reinterpret_cast<const char *>(&n_missing), sizeof(n_missing));
+      }
+  }
+
+
+  void
+  Film::resume(const unsigned int n_before)
+  {
+    n_frames  = 0;
+    n_missing = n_before;
+    if (!root)
+      return;
+    std::string head(magic.size(), ' ');
+    std::uint64_t missing = n_before + 1ul;
+    std::ifstream old(file, std::ios::binary);
+    old.read(head.data(), head.size());
+    old.read(reinterpret_cast<char *>(&missing), sizeof(missing));
+    if (!old || head != magic || missing > n_before)
+      return; // the next frame begins a new file
+    const std::size_t size = head_size + (n_before - missing) * frame_size();
+    std::error_code problem;
+    if (std::filesystem::file_size(file, problem) < size || problem)
+      return;
+    std::filesystem::resize_file(file, size, problem);
+    if (problem)
+      return;
+    n_missing = missing;
+    n_frames  = n_before - missing;
+    open(false);
+  }
+
+
+  void
+  Film::write(const Drawing &drawing)
+  {
+    const auto named = [](const auto &list, const std::string &name) -> const auto &
+    {
+      return std::find_if(list.begin(),
+                          list.end(),
+                          [&](const auto &entry) { return entry.first == name; })
+        ->second;
+    };
+    const Vector &displacement = *named(drawing.of_nodes, "displacement");
+    std::vector<float> nodal;
+    for (const unsigned int node : own_nodes)
+      for (unsigned int d = 0; d < 3; ++d)
+        nodal.push_back(displacement.local_element(3 * node + d));
+    std::vector<float> ratios, stresses;
+    for (const Triangle &triangle : own_triangles)
+      {
+        ratios.push_back(named(drawing.of_cells, "volume_ratio")[triangle.cell_index]);
+        stresses.push_back(named(drawing.of_cells, "von_mises_stress")[triangle.cell_index]);
+      }
+    nodal    = gathered(nodal, body.mesh.communicator);
+    ratios   = gathered(ratios, body.mesh.communicator);
+    stresses = gathered(stresses, body.mesh.communicator);
+    if (!root)
+      return;
+
+    std::vector<float> values(rest.size() + 2 * triangles.size());
+    for (std::size_t i = 0; i < vertex_place.size(); ++i)
+      std::copy_n(&nodal[3 * i], 3, &values[3 * vertex_place[i]]);
+    for (std::size_t i = 0; i < triangle_place.size(); ++i)
+      {
+        values[rest.size() + triangle_place[i]]                    = ratios[i];
+        values[rest.size() + triangles.size() + triangle_place[i]] = stresses[i];
+      }
+    if (!stream.is_open())
+      open(true);
+    const std::array<double, 2> when = {{drawing.time, double(drawing.step)}};
+    stream.write(reinterpret_cast<const char *>(when.data()), sizeof(when));
+    stream.write(reinterpret_cast<const char *>(values.data()), values.size() * sizeof(float));
+    stream << std::flush;
+    if (!stream)
+      throw WriteError(file + " can't be written any more; is the disk full?");
+    ++n_frames;
+  }
+
+
+  Film::Frame
+  Film::read_frame(std::ifstream &stream, const unsigned int number) const
+  {
+    Frame frame;
+    frame.displacement.resize(rest.size());
+    frame.cells.resize(2 * triangles.size());
+    stream.seekg(head_size + number * frame_size());
+    stream.read(reinterpret_cast<char *>(&frame.time), sizeof(double));
+    stream.read(reinterpret_cast<char *>(&frame.step), sizeof(double));
+    for (std::vector<float> *values : {&frame.displacement, &frame.cells})
+      stream.read(reinterpret_cast<char *>(values->data()), values->size() * sizeof(float));
+    if (!stream)
+      throw WriteError(file + " can't be read.");
+    return frame;
+  }
+
+
+  Film::Packed
+  Film::pack(const std::size_t limit) const
+  {
+    Packed packed;
+    packed.n_vertices  = rest.size() / 3;
+    packed.n_triangles = triangles.size();
+    packed.n_written   = n_frames;
+    packed.materials   = [&] {
+      const std::set<unsigned int> ids(materials.begin(), materials.end());
+      return std::vector<unsigned int>(ids.begin(), ids.end());
+    }();
+    std::vector<std::uint16_t> ids(materials.begin(), materials.end());
+    ids.resize((ids.size() + 1) / 2 * 2);
+    append(packed.bytes, rest);
+    append(packed.bytes, triangles);
+    append(packed.bytes, ids);
+
+    const std::size_t size = (rest.size() + 2 * triangles.size()) * sizeof(std::uint16_t);
+    const std::size_t room = limit > packed.bytes.size() ? (limit - packed.bytes.size()) / size : 0;
+    const auto taken =
+      spread(std::min<std::size_t>(n_frames, std::max<std::size_t>(room, 2)), n_frames);
+    std::ifstream stream(file, std::ios::binary);
+    std::vector<Frame> frames;
+    for (const unsigned int number : taken)
+      {
+        frames.push_back(read_frame(stream, number));
+        const Frame &frame = frames.back();
+        const auto middle  = frame.cells.begin() + triangles.size();
+        const auto widen   = [](std::vector<double> &range, const auto begin, const auto end) {
+          const auto [low, high] = std::minmax_element(begin, end);
+          range                  = range.empty() ? std::vector<double>{*low, *high}
+                                                   : std::vector<double>{std::min<double>(range[0], *low),
+                                                                       std::max<double>(range[1], *high)};
+        };
+        widen(packed.volume_ratio, frame.cells.begin(), middle);
+        widen(packed.von_mises, middle, frame.cells.end());
+        for (const float u : frame.displacement)
+          packed.largest_displacement = std::max<double>(packed.largest_displacement, std::abs(u));
+      }
+    for (const Frame &frame : frames)
+      {
+        packed.times.push_back(frame.time);
+        packed.steps.push_back(frame.step);
+        const auto middle = frame.cells.begin() + triangles.size();
+        append(packed.bytes, in_16_bits(frame.displacement, packed.largest_displacement));
+        append(packed.bytes, in_16_bits(frame.cells.begin(), middle, packed.volume_ratio));
+        append(packed.bytes, in_16_bits(middle, frame.cells.end(), packed.von_mises));
+      }
+    return packed;
+  }
+
+
+  nlohmann::ordered_json
+  Film::Packed::description() const
+  {
+    return {{"vertices", n_vertices},
+            {"triangles", n_triangles},
+            {"frames_written", n_written},
+            {"times", times},
+            {"steps", steps},
+            {"largest_displacement", largest_displacement},
+            {"volume_ratio", volume_ratio},
+            {"von_mises_stress", von_mises},
+            {"materials", materials}};
+  }
+
+
+  void
+  Film::remove() const
+  {
+    std::error_code nothing_there;
+    if (root)
+      std::filesystem::remove(file, nothing_there);
+  }
+} // namespace Supple

@@ -1,0 +1,212 @@
+#include <supple/output/frames.h>
+
+#include <supple/base/tables.h>
+
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Supple
+{
+  using namespace dealii;
+
+  Frames::Frames(const Body &body, const OutputParameters &parameters, const std::string &folder)
+    : body(body)
+    , parameters(parameters)
+    , folder(folder)
+  {
+    body.initialize(last_displacement);
+    if (parameters.report)
+      film = std::make_unique<Film>(body, folder);
+  }
+
+
+  nlohmann::json
+  Frames::save() const
+  {
+    return {{"records", records},
+            {"step", last.step},
+            {"time", last.time},
+            {"min_volume_ratio", min_volume_ratio},
+            {"max_volume_ratio", max_volume_ratio},
+            {"inverted", inverted}};
+  }
+
+
+  void
+  Frames::load(const nlohmann::json &saved)
+  {
+    records          = saved.at("records").get<std::vector<std::pair<double, std::string>>>();
+    last.step        = saved.at("step");
+    last.time        = saved.at("time");
+    min_volume_ratio = saved.at("min_volume_ratio");
+    max_volume_ratio = saved.at("max_volume_ratio");
+    inverted         = saved.at("inverted");
+    if (film)
+      film->resume(records.size());
+  }
+
+
+  bool
+  Frames::has_moved(const Vector &displacement) const
+  {
+    return largest_vertex_distance(displacement, last_displacement) >
+           parameters.motion * body.mesh.diameter();
+  }
+
+
+  bool
+  Frames::volume_has_changed(const Measurement &now) const
+  {
+    return now.max_volume_ratio > max_volume_ratio + parameters.volume_ratio_change ||
+           now.min_volume_ratio < min_volume_ratio - parameters.volume_ratio_change ||
+           (now.inverted > 0 && !inverted);
+  }
+
+
+  bool
+  Frames::due(const State &state, const Measurement &now) const
+  {
+    if (records.empty())
+      return true;
+    const double since_last = now.time - last.time;
+    switch (parameters.frames)
+      {
+        case OutputParameters::Frames::every:
+          return now.step % parameters.every == 0;
+        case OutputParameters::Frames::interval:
+          {
+            // The first step that reaches a multiple of the interval.
+            const auto passed = [&](const double time) {
+              return std::floor(time / parameters.interval * (1. + 1e-12));
+            };
+            return passed(now.time) > passed(now.time - now.dt);
+          }
+        case OutputParameters::Frames::adaptive:
+          return (parameters.longest_interval > 0. &&
+                  since_last >= parameters.longest_interval * (1. - 1e-12)) ||
+                 volume_has_changed(now) || has_moved(state.block(0));
+        default:
+          return false;
+      }
+  }
+
+
+  bool
+  Frames::can_hold(const State &state) const
+  {
+    const auto finite = [](const float value) { return std::isfinite(value); };
+    for (unsigned int b = 0; b < state.n_blocks(); ++b)
+      state.block(b).update_ghost_values(); // the cells ask for them
+    bool here = true;
+    for (unsigned int b = 0; b < state.n_blocks(); ++b)
+      here = here && std::all_of(state.block(b).begin(), state.block(b).end(), finite);
+    for (const auto &[name, values] : cell_fields(state))
+      here = here && std::all_of(values.begin(), values.end(), finite);
+    for (unsigned int b = 0; b < state.n_blocks(); ++b)
+      state.block(b).zero_out_ghost_values();
+    return Utilities::MPI::min(here ? 1 : 0, body.mesh.communicator) == 1;
+  }
+
+
+  void
+  Frames::write(const State &state, const Measurement &now)
+  {
+    if (!records.empty() && now.step == last.step)
+      return;
+    const std::string name = "frame_" + Utilities::int_to_string(n_written(), 4);
+    write_vtu(state, now, name);
+
+    const bool first    = records.empty();
+    const bool parallel = Utilities::MPI::n_mpi_processes(body.mesh.communicator) > 1;
+    records.emplace_back(now.time, "solution/" + name + (parallel ? ".pvtu" : ".vtu"));
+    if (Utilities::MPI::this_mpi_process(body.mesh.communicator) == 0)
+      {
+        std::ostringstream record;
+        DataOutBase::write_pvd_record(record, records);
+        write_whole_file(folder + "/solution.pvd", record.str());
+      }
+
+    min_volume_ratio =
+      first ? now.min_volume_ratio : std::min(min_volume_ratio, now.min_volume_ratio);
+    max_volume_ratio =
+      first ? now.max_volume_ratio : std::max(max_volume_ratio, now.max_volume_ratio);
+    inverted          = inverted || now.inverted > 0;
+    last              = now;
+    last_displacement = state.block(0);
+  }
+
+
+  void
+  Frames::write_vtu(const State &state, const Measurement &now, const std::string &name)
+  {
+    // Drawing works with whole vectors: ghost values stay valid until it is done.
+    for (unsigned int b = 0; b < state.n_blocks(); ++b)
+      state.block(b).update_ghost_values();
+    Vector deformed;
+    body.initialize(deformed);
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      for (unsigned int i = 0; i < 3; ++i)
+        deformed.local_element(3 * node + i) =
+          body.positions[node][i] + state.block(0).local_element(3 * node + i);
+    deformed.update_ghost_values();
+
+    Drawing drawing{now.time, now.step, deformed, {}, cell_fields(state)};
+    const char *const names[] = {"displacement", "velocity"};
+    for (unsigned int b = 0; b < state.n_blocks(); ++b)
+      drawing.of_nodes.emplace_back(names[b], &state.block(b));
+    write_pieces(drawing, name);
+    if (film)
+      film->write(drawing);
+    for (unsigned int b = 0; b < state.n_blocks(); ++b)
+      state.block(b).zero_out_ghost_values();
+  }
+
+
+  std::vector<std::pair<std::string, dealii::Vector<float>>>
+  Frames::cell_fields(const State &state) const
+  {
+    std::vector<std::pair<std::string, dealii::Vector<float>>> fields;
+    for (const char *name :
+         {"volume_ratio", "von_mises_stress", "rotation_angle", "material", "pressure"})
+      fields.emplace_back(name, dealii::Vector<float>(body.mesh.parts->n_cells));
+    const std::vector<CellState> states = body.states(state.block(0).begin());
+    for (std::size_t c = 0; c < states.size(); ++c)
+      {
+        const unsigned int cell = body.cell_index[c];
+        fields[0].second[cell]  = states[c].volume_ratio;
+        fields[1].second[cell]  = states[c].von_mises_stress;
+        fields[2].second[cell]  = states[c].rotation_angle;
+        fields[3].second[cell]  = body.cell_material[c];
+        fields[4].second[cell]  = states[c].pressure;
+      }
+    return fields;
+  }
+
+
+  /** A file for each process, and on several a record that names them all. */
+  void
+  Frames::write_pieces(const Drawing &drawing, const std::string &name) const
+  {
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(body.mesh.communicator);
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(body.mesh.communicator);
+    std::vector<std::string> pieces;
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      pieces.push_back(n_ranks == 1 ? name + ".vtu" : name + "." + std::to_string(r) + ".vtu");
+
+    const auto [part, record] = draw(*body.mesh.parts, drawing, pieces);
+    write_whole_file(folder + "/solution/" + pieces[rank], part);
+    if (n_ranks > 1)
+      {
+        MPI_Barrier(body.mesh.communicator); // the record names no file that is not there
+        if (rank == 0)
+          write_whole_file(folder + "/solution/" + name + ".pvtu", record);
+      }
+  }
+} // namespace Supple

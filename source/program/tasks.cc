@@ -1,0 +1,58 @@
+#include <supple/identification/identification.h>
+#include <supple/program/tasks.h>
+#include <supple/run/simulation.h>
+#include <supple/study/study.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+
+namespace Supple
+{
+  namespace
+  {
+    template <typename Task, typename TaskParameters>
+    void
+    run_or_check(const CommandLine &line, const MPI_Comm communicator)
+    {
+      const auto parameters = TaskParameters::read(line.scene, line.overrides);
+      const auto folder     = line.output.empty() ? parameters.output_folder() : line.output;
+      Task task(parameters, folder, line.quiet, communicator);
+      if (line.action == CommandLine::Action::run)
+        task.run();
+      else
+        task.check();
+    }
+  } // namespace
+
+
+  void
+  execute(const CommandLine &line, const MPI_Comm communicator)
+  {
+    using Action    = CommandLine::Action;
+    const bool root = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+    switch (line.action)
+      {
+        case Action::print_help:
+          if (root)
+            std::cout << CommandLine::help();
+          return;
+        case Action::print_version:
+          if (root)
+            std::cout << "supple " << SUPPLE_VERSION << std::endl;
+          return;
+        case Action::print_parameters:
+          if (root)
+            Parameters::print_reference(std::cout, line.format);
+          return;
+        case Action::check:
+        case Action::run:
+          if (StudyParameters::is_study(line.scene))
+            run_or_check<Study, StudyParameters>(line, communicator);
+          else if (IdentificationParameters::is_identification(line.scene))
+            run_or_check<Identification, IdentificationParameters>(line, communicator);
+          else
+            run_or_check<Simulation, Parameters>(line, communicator);
+      }
+  }
+} // namespace Supple

@@ -1,0 +1,108 @@
+#include <supple/base/error.h>
+#include <supple/scene/task_parameters.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <filesystem>
+
+namespace Supple
+{
+  using dealii::Utilities::trim;
+
+  std::vector<std::string>
+  split_outside_brackets(const std::string &text, const char separator)
+  {
+    std::vector<std::string> parts(1);
+    int depth = 0;
+    for (std::size_t i = 0; i < text.size(); ++i)
+      {
+        depth += (text[i] == '[') - (text[i] == ']');
+        const bool doubled =
+          (i > 0 && text[i - 1] == separator) || (i + 1 < text.size() && text[i + 1] == separator);
+        if (text[i] == separator && depth == 0 && !doubled)
+          parts.emplace_back();
+        else
+          parts.back() += text[i];
+      }
+    return parts;
+  }
+
+
+  std::vector<Override>
+  override_list(const std::string &text, const std::string &place)
+  {
+    std::vector<Override> list;
+    for (const std::string &part : split_outside_brackets(text, '|'))
+      if (!trim(part).empty())
+        list.push_back({trim(part), place});
+    return list;
+  }
+
+
+  TaskParameters::TaskParameters(const std::string &subsection)
+    : subsection(subsection)
+  {
+  }
+
+
+  void
+  TaskParameters::parse(dealii::ParameterHandler &prm,
+                        const std::string &file_name,
+                        const std::vector<Override> &all_overrides)
+  {
+    file = ParameterFile(file_name);
+    name = file.name();
+    std::vector<Override> own;
+    for (const Override &override : all_overrides)
+      {
+        const bool mine = trim(override.text.substr(0, override.text.find('/'))) == subsection;
+        (mine ? own : command_line).push_back(override);
+      }
+    file.parse(prm, own);
+  }
+
+
+  Parameters
+  TaskParameters::read_scene(const std::vector<Override> &more) const
+  {
+    std::vector<Override> list = override_list(overrides, place("Overrides"));
+    list.insert(list.end(), command_line.begin(), command_line.end());
+    list.insert(list.end(), more.begin(), more.end());
+    std::error_code unreadable; // a name that is too long is no exception
+    if (!std::filesystem::is_regular_file(path(scene), unreadable))
+      throw InputError(place("Scene") + ": there is no such parameter file: " + path(scene) + ".");
+    return Parameters::read(path(scene), list);
+  }
+
+
+  std::string
+  TaskParameters::scene_in_words() const
+  {
+    return "Scene: `" + path(scene) + "`" +
+           (overrides.empty() ? std::string() : ", with `" + overrides + "`");
+  }
+
+
+  std::string
+  TaskParameters::path(const std::string &as_written) const
+  {
+    const std::filesystem::path path(as_written);
+    return (path.is_absolute() ? path : std::filesystem::path(file.folder()) / path)
+      .lexically_normal()
+      .string();
+  }
+
+
+  std::string
+  TaskParameters::place(const std::string &entry) const
+  {
+    return file.place(subsection + "/" + entry) + ": " + subsection + "/" + entry;
+  }
+
+
+  std::string
+  TaskParameters::output_folder() const
+  {
+    return "output/" + name;
+  }
+} // namespace Supple

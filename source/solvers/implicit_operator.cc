@@ -1,0 +1,294 @@
+#include <supple/base/prefetch.h>
+#include <supple/solvers/implicit_operator.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Supple
+{
+  ImplicitOperator::ImplicitOperator(const Body &body,
+                                     const Constraints &constraints,
+                                     const Parameters &parameters,
+                                     Effort &effort)
+    : body(body)
+    , constraints(constraints)
+    , damping(parameters.damping)
+    , effort(effort)
+    , warp_tolerance(parameters.corotation.warp_tolerance * M_PI / 180.)
+    , pattern(make_pattern())
+    , A(pattern)
+  {
+    body.cells->connect(pattern);
+    find_masked_entries();
+    if (parameters.time.problem == TimeParameters::Problem::dynamic)
+      {
+        M = std::make_unique<SymmetricScalarMatrix>(pattern);
+        body.cells->add_mass(*M);
+      }
+  }
+
+
+  /** A node that is held in all directions is coupled to no other. */
+  SymmetricPattern
+  ImplicitOperator::make_pattern() const
+  {
+    std::vector<std::vector<std::uint32_t>> columns(body.n_local);
+    for (const auto &nodes : body.cell_nodes)
+      for (const unsigned int row : nodes)
+        for (const unsigned int column : nodes)
+          if (column < row && column < body.n_owned && !constraints.holds_node(row) &&
+              !constraints.holds_node(column))
+            columns[row].push_back(column);
+
+    SymmetricPattern pattern;
+    pattern.n_owned = body.n_owned;
+    pattern.n_local = body.n_local;
+    pattern.row_start.push_back(0);
+    for (auto &row : columns)
+      {
+        std::sort(row.begin(), row.end());
+        row.erase(std::unique(row.begin(), row.end()), row.end());
+        pattern.column.insert(pattern.column.end(), row.begin(), row.end());
+        pattern.row_start.push_back(pattern.column.size());
+      }
+    pattern.cut(body.n_threads);
+    return pattern;
+  }
+
+
+  void
+  ImplicitOperator::find_masked_entries()
+  {
+    for (const unsigned int dof : constraints.owned())
+      {
+        const std::size_t node = dof / 3, i = dof % 3;
+        for (std::size_t j = 0; j < 3; ++j)
+          if (j != i)
+            {
+              masked_diagonal.push_back(9 * node + 3 * i + j);
+              masked_diagonal.push_back(9 * node + 3 * j + i);
+            }
+      }
+    for (std::size_t row = 0; row < pattern.n_local; ++row)
+      for (std::size_t k = pattern.row_start[row]; k < pattern.row_start[row + 1]; ++k)
+        for (std::size_t i = 0; i < 3; ++i)
+          for (std::size_t j = 0; j < 3; ++j)
+            if (constraints.holds(3 * row + i) || constraints.holds(3 * pattern.column[k] + j))
+              masked_lower.push_back(9 * k + 3 * i + j);
+  }
+
+
+  void
+  ImplicitOperator::assemble(SymmetricBlockMatrix &matrix, const double added_bulk) const
+  {
+    const PhaseTimer timer(effort, Phase::assembly);
+    matrix.set_zero();
+    body.cells->add_tangent(factors.mass, factors.stiffness, factors.rotation, matrix, added_bulk);
+    if (factors.diagonal != 0.)
+      matrix.add_to_diagonal(factors.diagonal);
+    mask(matrix);
+  }
+
+
+  void
+  ImplicitOperator::mask(SymmetricBlockMatrix &matrix) const
+  {
+    for (const std::size_t position : masked_diagonal)
+      matrix.diagonal[position] = 0.;
+    for (const std::size_t position : masked_lower)
+      matrix.lower[position] = 0.;
+  }
+
+
+  bool
+  ImplicitOperator::assemble(const double gamma)
+  {
+    const Factors wanted = {1. + gamma * damping.mass_factor,
+                            gamma * gamma + gamma * damping.stiffness_factor,
+                            gamma * gamma,
+                            gamma * damping.viscous};
+    const bool keeps     = warp_tolerance > 0. && body.cells->tangent_is_frozen();
+    if (keeps && renewable && wanted.mass == factors.mass &&
+        wanted.stiffness == factors.stiffness && wanted.diagonal == factors.diagonal)
+      return renew();
+    factors   = wanted;
+    renewable = keeps;
+    assemble_all();
+    return true;
+  }
+
+
+  void
+  ImplicitOperator::forget()
+  {
+    renewable = false;
+  }
+
+
+  /** A cell on two processes is renewed by both in the same step: they know the same rotations. */
+  bool
+  ImplicitOperator::renew()
+  {
+    const std::size_t here = body.cells->n_turned(warp_tolerance);
+    const std::size_t all  = dealii::Utilities::MPI::sum(here, body.mesh.communicator);
+    if (all == 0)
+      return false;
+    if (2 * all > body.mesh.n_cells)
+      assemble_all(); // to take off and to put on costs more
+    else
+      {
+        const PhaseTimer timer(effort, Phase::assembly);
+        body.cells->renew_tangent(warp_tolerance, factors.stiffness, A);
+        mask(A);
+        ++effort.assemblies;
+        effort.cells_warped += here;
+      }
+    return true;
+  }
+
+
+  void
+  ImplicitOperator::assemble_all()
+  {
+    if (renewable)
+      body.cells->keep_rotations();
+    else
+      body.cells->release_rotations();
+    assemble(A, 0.);
+    ++effort.assemblies;
+    effort.cells_warped += body.cell_nodes.size();
+  }
+
+
+  void
+  ImplicitOperator::assemble_stiffness()
+  {
+    factors = {0., 1., 1., 0.};
+    assemble(A, 0.);
+    ++effort.assemblies;
+  }
+
+
+  void
+  ImplicitOperator::assemble_bounded(SymmetricBlockMatrix &matrix) const
+  {
+    // (kappa / mu) at nu = 0.3
+    assemble(matrix, 13. / 6.);
+  }
+
+
+  void
+  ImplicitOperator::vmult(Vector &y, const Vector &x) const
+  {
+    const GhostValues values(x);
+    A.vmult(y.begin(), values.data());
+    if (body.patches)
+      {
+        body.patches->add_product(factors.stiffness, values.data(), y.begin());
+        constraints.set_zero(y);
+      }
+  }
+
+
+  void
+  ImplicitOperator::mass_vmult(Vector &y, const Vector &x) const
+  {
+    const GhostValues values(x);
+    M->vmult(y.begin(), values.data());
+    constraints.set_zero(y);
+  }
+
+
+  namespace
+  {
+    /** The product with s (A - m M - d I), row by row. Arrays as in
+     * SymmetricBlockMatrix::vmult(). */
+    struct StiffnessProduct
+    {
+      const SymmetricBlockMatrix &A;
+      const SymmetricScalarMatrix &M;
+      const double m, d, s;
+      double *y;
+      const double *x;
+
+      /** sum += s^-1 (entries of the row) x, and the transposed ones to y. */
+      void
+      add(const std::size_t i,
+          const std::size_t begin,
+          const std::size_t end,
+          double (&sum)[3]) const
+      {
+        const double scaled[3]{s * x[3 * i], s * x[3 * i + 1], s * x[3 * i + 2]};
+        for (std::size_t k = begin; k < end; ++k)
+          {
+            const double *block = &A.lower[9 * k];
+            ask_for_line_ahead(block);
+            const double mass = m * M.lower[k];
+            const double *xj  = x + 3 * static_cast<std::size_t>(A.pattern.column[k]);
+            double *yj        = y + 3 * static_cast<std::size_t>(A.pattern.column[k]);
+            for (unsigned int a = 0; a < 3; ++a)
+              for (unsigned int b = 0; b < 3; ++b)
+                {
+                  const double entry = block[3 * a + b] - (a == b ? mass : 0.);
+                  sum[a] += entry * xj[b];
+                  yj[b] += entry * scaled[a];
+                }
+          }
+      }
+
+      void
+      set_row(const std::size_t i, const std::size_t begin, const std::size_t end) const
+      {
+        double sum[3]{};
+        for (unsigned int a = 0; a < 3; ++a)
+          for (unsigned int b = 0; b < 3; ++b)
+            sum[a] += (A.diagonal[9 * i + 3 * a + b] - (a == b ? m * M.diagonal[i] + d : 0.)) *
+                      x[3 * i + b];
+        add(i, begin, end, sum);
+        for (unsigned int a = 0; a < 3; ++a)
+          y[3 * i + a] = s * sum[a];
+      }
+
+      void
+      add_to_row(const std::size_t i, const std::size_t begin, const std::size_t end) const
+      {
+        double sum[3]{};
+        add(i, begin, end, sum);
+        for (unsigned int a = 0; a < 3 && i < A.pattern.n_owned; ++a)
+          y[3 * i + a] += s * sum[a];
+      }
+    };
+  } // namespace
+
+
+  void
+  ImplicitOperator::stiffness_vmult(Vector &y, const Vector &x) const
+  {
+    const GhostValues values(x);
+    if (M && factors.stiffness > 0. && factors.stiffness == factors.rotation)
+      {
+        // What is lost where M is much larger than K' is round-off of M x / gamma.
+        const double scale = 1. / factors.stiffness;
+        const StiffnessProduct product{
+          A, *M, factors.mass, factors.diagonal, scale, y.begin(), values.data()};
+        pattern.for_inner_entries(
+          [&product](const std::size_t i, const std::size_t begin, const std::size_t end) {
+            product.set_row(i, begin, end);
+          });
+        pattern.for_outer_entries(
+          [&product](const std::size_t i, const std::size_t begin, const std::size_t end) {
+            product.add_to_row(i, begin, end);
+          });
+        if (body.patches)
+          body.patches->add_product(1., values.data(), y.begin());
+      }
+    else
+      sum_into(y, [&](double *sum) {
+        body.add_stiffness_product(values.data(), sum);
+        body.cells->add_rotation_product(values.data(), sum);
+      });
+    constraints.set_zero(y);
+  }
+} // namespace Supple

@@ -1,0 +1,291 @@
+#include <supple/solvers/linear_solver.h>
+
+#include <supple/base/error.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <sstream>
+
+namespace Supple
+{
+  using Method = SolverParameters::Method;
+
+  namespace
+  {
+    // Up to how many degrees of freedom a solver is the best one, measured on the bar
+    // (benchmarks/bar). An operator that never changes is factored once, so that the cost of a
+    // solution alone counts.
+    struct Limits
+    {
+      unsigned int ldlt, cholmod;
+    };
+    constexpr Limits changing_operator = {600, 600};
+    constexpr Limits constant_operator = {1500, 150000};
+
+    // In the plane factors stay thin: CHOLMOD takes 1.3 s at 161202 unknowns, ML 4.1 s
+    // (parameters/skin/needle-plane.prm, finer).
+    constexpr Limits changing_operator_in_plane = {5000, 300000};
+    constexpr Limits constant_operator_in_plane = {1500, 300000};
+
+    // Beyond, CHOLMOD would take gigabytes as a stand-in.
+    constexpr unsigned int largest_stand_in_factor = 300000;
+
+    Limits
+    limits_of(const bool plane, const bool constant)
+    {
+      if (plane)
+        return constant ? constant_operator_in_plane : changing_operator_in_plane;
+      return constant ? constant_operator : changing_operator;
+    }
+
+    /** Our multigrid knows the six rigid motions of a body in space alone. */
+    Method
+    multigrid(const ImplicitOperator &A)
+    {
+      return A.body.mesh.section.plane() ? Method::cg_ml : Method::cg_amg;
+    }
+
+    /** ML fails where a process has no rows. */
+    bool
+    all_own(const ImplicitOperator &A)
+    {
+      return dealii::Utilities::MPI::min(A.body.n_owned, A.body.mesh.communicator) > 0;
+    }
+
+    Method
+    choose(const ImplicitOperator &A, std::string &reason)
+    {
+      const unsigned int n_ranks =
+        dealii::Utilities::MPI::n_mpi_processes(A.body.mesh.communicator);
+      if (n_ranks > 1)
+        {
+          const bool ml_fails = multigrid(A) == Method::cg_ml && !all_own(A);
+          reason              = std::to_string(n_ranks) + " processes" +
+                   (ml_fails ? ", some of which own no vertex" : "");
+          return ml_fails ? Method::cg_jacobi : multigrid(A);
+        }
+      const bool constant       = A.body.rotation == RotationMethod::none;
+      const Limits limits       = limits_of(A.body.mesh.section.plane(), constant);
+      const unsigned int n_dofs = A.body.n_dofs();
+      const auto explain        = [&](const std::string &comparison, const unsigned int limit) {
+        reason = std::to_string(n_dofs) + " unknowns, " + comparison + " " + std::to_string(limit) +
+                 (constant ? ", the operator never changes" : ", the operator changes");
+      };
+      if (n_dofs <= limits.ldlt)
+        {
+          explain("at most", limits.ldlt);
+          return Method::ldlt;
+        }
+      if (n_dofs <= limits.cholmod)
+        {
+          explain("at most", limits.cholmod);
+          return Method::cholmod;
+        }
+      explain("more than", limits.cholmod);
+      return multigrid(A);
+    }
+
+    std::unique_ptr<LinearSolver>
+    make(const Method method,
+         const ImplicitOperator &A,
+         const SolverParameters &parameters,
+         Effort &effort)
+    {
+      switch (method)
+        {
+          case Method::ldlt:
+            return make_ldlt_solver(A, parameters, effort);
+          case Method::cholmod:
+            return make_cholmod_solver(A, parameters, effort);
+          case Method::cg_amg:
+            return make_cg_amg_solver(A, parameters, effort);
+          case Method::cg_jacobi:
+            return make_cg_jacobi_solver(A, parameters, effort);
+          default:
+            return make_cg_ml_solver(A, parameters, effort);
+        }
+    }
+
+    /** The solver that takes over when the chosen one fails; none for direct solvers, whose
+     * failure means that A is not positive definite. */
+    std::unique_ptr<LinearSolver>
+    make_stand_in(const Method method,
+                  const ImplicitOperator &A,
+                  const SolverParameters &parameters,
+                  Effort &effort)
+    {
+      if (method == Method::ldlt || method == Method::cholmod)
+        return nullptr;
+      const bool one_process =
+        dealii::Utilities::MPI::n_mpi_processes(A.body.mesh.communicator) == 1;
+      if (one_process && A.body.n_dofs() <= largest_stand_in_factor)
+        return make_cholmod_solver(A, parameters, effort);
+      if (method == Method::cg_amg && all_own(A))
+        return make_cg_ml_solver(A, parameters, effort);
+      return nullptr;
+    }
+  } // namespace
+
+
+  PreconditioningMatrix::PreconditioningMatrix(const ImplicitOperator &A)
+    : A(A)
+  {
+    if (A.body.patches)
+      bounded = std::make_unique<SymmetricBlockMatrix>(A.matrix().pattern);
+  }
+
+
+  void
+  PreconditioningMatrix::update()
+  {
+    if (bounded)
+      A.assemble_bounded(*bounded);
+  }
+
+
+  LinearSolver::LinearSolver(const ImplicitOperator &A,
+                             const SolverParameters &parameters,
+                             Effort &effort)
+    : A(A)
+    , parameters(parameters)
+    , effort(effort)
+  {
+    A.body.initialize(residual);
+    A.body.initialize(remainder);
+    A.body.initialize(correction);
+  }
+
+
+  std::unique_ptr<LinearSolver>
+  LinearSolver::create(const ImplicitOperator &A, const Parameters &scene, Effort &effort)
+
+  {
+    const SolverParameters &parameters = scene.solver;
+    std::string reason                 = "asked for";
+    Method method                      = parameters.method;
+    if (method == Method::automatic)
+      method = choose(A, reason);
+
+    const bool direct = method == Method::ldlt || method == Method::cholmod;
+    if (direct && dealii::Utilities::MPI::n_mpi_processes(A.body.mesh.communicator) > 1)
+      throw InputError(scene.origin("Solver/Method") +
+                       ": ldlt and cholmod work on one process; on several take cg-amg or auto.");
+
+    std::unique_ptr<LinearSolver> solver = make(method, A, parameters, effort);
+    solver->reason                       = reason;
+    if (parameters.method == Method::automatic)
+      solver->stand_in = make_stand_in(method, A, parameters, effort);
+    if (solver->stand_in)
+      A.body.initialize(solver->prepared_at);
+    return solver;
+  }
+
+
+  std::string
+  LinearSolver::stand_in_name() const
+  {
+    return stand_in ? stand_in->name() : "";
+  }
+
+
+  void
+  LinearSolver::prepare(const Vector &displacement)
+  {
+    const PhaseTimer timer(effort, Phase::solver_setup);
+    prepared = stand_in_prepared = false;
+    if (stand_in)
+      prepared_at = displacement;
+    try
+      {
+        do_prepare(displacement);
+        prepared = true;
+      }
+    catch (const ComputationError &)
+      {
+        if (!stand_in)
+          throw;
+      }
+  }
+
+
+  unsigned int
+  LinearSolver::solve(Vector &x, const Vector &b)
+  {
+    const PhaseTimer timer(effort, Phase::solve);
+
+    if (!all_finite(b))
+      throw ComputationError("the forces are not finite numbers");
+    if (b.l2_norm() < 1e-100) // squares of smaller numbers are lost in conjugate gradients
+      {
+        x = 0.;
+        return 0;
+      }
+
+    unsigned int n_iterations = 0;
+    try
+      {
+        n_iterations = prepared ? solve_alone(x, b) : solve_by_stand_in(x, b);
+      }
+    catch (const ComputationError &)
+      {
+        if (!stand_in || !prepared)
+          throw;
+        n_iterations = solve_by_stand_in(x, b);
+      }
+    ++effort.solves;
+    effort.linear_iterations += n_iterations;
+    return n_iterations;
+  }
+
+
+  unsigned int
+  LinearSolver::solve_by_stand_in(Vector &x, const Vector &b)
+  {
+    if (!stand_in_prepared)
+      {
+        stand_in->do_prepare(prepared_at);
+        stand_in_prepared = true;
+      }
+    ++effort.stand_in_solves;
+    return stand_in->solve_alone(x, b);
+  }
+
+
+  unsigned int
+  LinearSolver::solve_alone(Vector &x, const Vector &b)
+  {
+    const double size         = b.l2_norm();
+    unsigned int n_iterations = do_solve(x, b, residual);
+    double relative           = residual.l2_norm() / size;
+
+    // Round-off in large or badly conditioned systems: solve for what is left over.
+    for (unsigned int n = 0; n < 3 && relative > 2. * parameters.tolerance; ++n)
+      {
+        remainder = residual;
+        n_iterations += do_solve(correction, remainder, residual);
+        x += correction;
+        relative = set_residual(residual, x, b) / size;
+      }
+    if (relative > std::max(1e-6, 10. * parameters.tolerance))
+      {
+        std::ostringstream text;
+        text << "the linear system is too badly conditioned: " << name()
+             << " left a relative residual of " << relative
+             << ". Are cells extremely thin, or the body almost incompressible";
+        throw ComputationError(text.str());
+      }
+    effort.max_relative_residual = std::max(effort.max_relative_residual, relative);
+    return n_iterations;
+  }
+
+
+  double
+  LinearSolver::set_residual(Vector &residual, const Vector &x, const Vector &b) const
+  {
+    if (!all_finite(x))
+      throw ComputationError("the linear solver " + name() + " gave no finite numbers");
+    A.vmult(residual, x);
+    residual.sadd(-1., 1., b);
+    return residual.l2_norm();
+  }
+} // namespace Supple

@@ -1,0 +1,280 @@
+#include <supple/study/study.h>
+
+#include <supple/base/digits.h>
+#include <supple/base/error.h>
+#include <supple/base/interrupt.h>
+#include <supple/base/output_folder.h>
+#include <supple/base/progress.h>
+#include <supple/base/tables.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+
+namespace Supple
+{
+  using dealii::Utilities::MPI::n_mpi_processes;
+  using dealii::Utilities::MPI::this_mpi_process;
+
+  Study::Study(const StudyParameters &study,
+               const std::string &folder,
+               const bool quiet,
+               const MPI_Comm communicator)
+    : parameters(study)
+    , folder(folder)
+    , communicator(communicator)
+    , root(this_mpi_process(communicator) == 0)
+    , talks(!quiet && root)
+    , plan(parameters)
+    , quantities(parameters, plan)
+    , runner(quantities.needed(), communicator)
+  {
+    check_parameters();
+    table.kind        = plan.kind;
+    table.name        = parameters.name;
+    table.error_names = quantities.error_names();
+    table.value_names = quantities.value_names();
+    table.judged      = std::any_of(plan.runs.begin(), plan.runs.end(), [](const PlannedRun &run) {
+      return !run.right_if.empty();
+    });
+    table.targets     = parameters.targets;
+    state_facts();
+  }
+
+
+  void
+  Study::say(const std::string &text) const
+  {
+    if (talks)
+      std::cout << text << std::endl;
+  }
+
+
+  void
+  Study::check_parameters() const
+  {
+    for (const PlannedRun &run : plan.references)
+      plan.parameters(run);
+    if (plan.kind == StudyPlan::Kind::cases)
+      return; // a refusal is a result there
+    for (const PlannedRun &run : plan.runs)
+      plan.parameters(run);
+  }
+
+
+  void
+  Study::check() const
+  {
+    say("Study " + parameters.name + " of scene " + plan.base.scene_name + ": " +
+        std::to_string(plan.runs.size()) + " runs and " + std::to_string(plan.references.size()) +
+        " for the reference");
+    for (const auto &list : {plan.references, plan.runs})
+      for (const PlannedRun &run : list)
+        {
+          std::string result = "can be run";
+          try
+            {
+              Simulation(plan.parameters(run), "", true, communicator);
+            }
+          catch (const InputError &error)
+            {
+              if (plan.kind != StudyPlan::Kind::cases)
+                throw InputError("Run '" + run.label() + "': " + error.what());
+              result = std::string("refused: ") + error.what();
+            }
+          say("  " + run.label() + ": " + result);
+        }
+  }
+
+
+  void
+  Study::state_facts()
+  {
+    table.facts.push_back(parameters.scene_in_words());
+    std::string set;
+    for (const Override &override : parameters.command_line)
+      set += (set.empty() ? "`" : ", `") + override.text + "`";
+    if (!set.empty())
+      table.facts.push_back("Set on the command line: " + set + ".");
+    if (!table.error_names.empty())
+      table.facts.push_back("Error: " + quantities.error_meaning() + ".");
+    const unsigned int n_ranks = n_mpi_processes(communicator);
+    table.facts.push_back(
+      (parameters.repeats == 0 ? std::string("Seconds: run time with all measurements")
+                               : "Seconds: run time without set-up and output, median of " +
+                                   std::to_string(parameters.repeats)) +
+      (n_ranks == 1 ? ", 1 process." : ", " + std::to_string(n_ranks) + " processes."));
+    if (table.judged)
+      table.facts.push_back("Right: `" + parameters.right_if +
+                            "`, unless the study has another condition for the case.");
+  }
+
+
+  void
+  Study::open_output() const
+  {
+    prepare_output_folder(folder, communicator, [&] {
+      namespace fs = std::filesystem;
+      fs::create_directories(folder);
+      for (const char *name : {"study.csv", "study.md", "report.html"})
+        fs::remove(fs::path(folder) / name);
+      for (const char *plot : {"work_precision", "convergence"})
+        for (const char *ending : {".gp", ".svg", ".png"})
+          fs::remove(fs::path(folder) / (std::string(plot) + ending));
+      write_whole_file(folder + "/study.csv", table.csv());
+    });
+  }
+
+
+  void
+  Study::run()
+  {
+    const InterruptGuard interrupt;
+    const auto start = std::chrono::steady_clock::now();
+    open_output();
+    say("Supple " SUPPLE_VERSION ", study " + parameters.name + ": " +
+        std::to_string(plan.runs.size()) + " runs of scene " + plan.base.scene_name);
+    try
+      {
+        run_references();
+        for (const PlannedRun &run : plan.runs)
+          {
+            table.add(run_one(run));
+            say(table.line(table.rows.back()));
+            write(false);
+            if (interrupt.requested(communicator))
+              throw InterruptedError("");
+          }
+      }
+    catch (const InterruptedError &)
+      {
+        write(true);
+        throw InterruptedError("Interrupted after " + std::to_string(table.rows.size()) + " of " +
+                               std::to_string(plan.runs.size()) +
+                               " runs; the table of these is in " + folder + ".");
+      }
+    write(true);
+
+    if (plan.kind != StudyPlan::Kind::cases)
+      for (const std::string &sentence : table.sentences())
+        say(sentence);
+    const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - start;
+    say("done in " + readable_duration(duration.count()) + ": " + folder + "/study.md");
+  }
+
+
+  void
+  Study::run_references()
+  {
+    std::vector<StudyRecord> records;
+    for (const PlannedRun &run : plan.references)
+      {
+        records.push_back(runner.record(plan.parameters(run), ""));
+        const StudyRecord &record = records.back();
+        if (record.status != StudyRecord::Status::done)
+          throw ComputationError("The reference (" + run.label() + ") failed: " + record.reason);
+        say("  reference: " + run.label() + ", " + digits(record.seconds, 3) + " s");
+      }
+    if (records.empty())
+      return;
+    reference        = records.back();
+    std::string text = "Reference: " + plan.references.back().label();
+    if (records.size() > 1)
+      {
+        // The finer one at all of its times against the coarser one in between, too.
+        const auto errors     = plan.kind == StudyPlan::Kind::methods
+                                  ? quantities.errors(records.back(), &records.front())
+                                  : quantities.errors(records.front(), &records.back());
+        table.reference_error = errors.front();
+        text +=
+          "; its own error is at most its distance from " + plan.references.front().label() + ":";
+        for (std::size_t i = 0; i < errors.size(); ++i)
+          text += (i == 0 ? " " : ", ") + percent(errors[i]) + " of " + table.error_names[i];
+        say("  its own error: " + percent(table.reference_error));
+      }
+    table.facts.push_back(text + ".");
+  }
+
+
+  StudyRow
+  Study::run_one(const PlannedRun &run) const
+  {
+    StudyRow row;
+    row.run = run;
+    try
+      {
+        Parameters scene         = plan.parameters(run);
+        scene.output.report      = false; // the study has one for all
+        scene.checkpoint         = {};    // what goes on lacks the rows before
+        const StudyRecord record = runner.record(
+          scene, parameters.histories ? folder + "/runs/" + run.folder_name() : std::string());
+        measure(row, record);
+        if (record.status == StudyRecord::Status::done && parameters.repeats > 0)
+          row.seconds = runner.time(scene, parameters.repeats);
+      }
+    catch (const InputError &error)
+      {
+        row.status = StudyRecord::Status::refused;
+        row.reason = error.what();
+      }
+    catch (const InterruptedError &)
+      {
+        throw;
+      }
+    catch (const ComputationError &error)
+      {
+        row.status = StudyRecord::Status::failed;
+        row.reason = error.what();
+      }
+    if (!run.right_if.empty())
+      row.verdict = row.status == StudyRecord::Status::refused ? "refused"
+                    : row.status == StudyRecord::Status::failed
+                      ? "failed"
+                      : quantities.verdict(run,
+                                           row.values,
+                                           table.rows.empty() ? std::vector<double>()
+                                                              : table.rows.back().values,
+                                           row.warnings);
+    return row;
+  }
+
+
+  void
+  Study::measure(StudyRow &row, const StudyRecord &record) const
+  {
+    row.status   = record.status;
+    row.reason   = record.reason;
+    row.steps    = record.steps;
+    row.rejected = record.rejected;
+    row.failed   = record.failed;
+    row.seconds  = record.seconds;
+    row.n_cells  = record.n_cells;
+    row.warnings = record.warnings;
+    row.size     = row.run.cell_size > 0. ? row.run.cell_size : record.cell_size;
+    if (plan.kind == StudyPlan::Kind::methods)
+      row.size = record.end / record.steps;
+    row.values = quantities.values(record);
+    if (record.status == StudyRecord::Status::done)
+      row.errors = quantities.errors(record, reference ? &*reference : nullptr);
+  }
+
+
+  void
+  Study::write(const bool with_plots) const
+  {
+    if (!root)
+      return;
+    write_whole_file(folder + "/study.csv", table.csv());
+    write_whole_file(folder + "/study.md", table.markdown());
+    write_report(folder, table);
+    if (!with_plots || plan.kind == StudyPlan::Kind::cases)
+      return;
+    const std::string problem = plot_study(table, folder);
+    if (!problem.empty())
+      say(problem);
+  }
+} // namespace Supple

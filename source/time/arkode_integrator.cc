@@ -1,0 +1,508 @@
+#include <supple/base/error.h>
+#include <supple/time/arkode_integrator.h>
+
+#include <arkode/arkode_arkstep.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace Supple
+{
+  using Method = TimeParameters::Method;
+
+  namespace
+  {
+    /** Within this part of the step a time is the end of the step: it differs by round-off. */
+    constexpr double grid_accuracy = 1e-9;
+
+
+    /** A method of one stage at c, without an error estimate. */
+    ARKodeButcherTable
+    one_stage_table(const int order, double c)
+    {
+      double b = 1.;
+      return ARKodeButcherTable_Create(1, order, 0, &c, &c, &b, nullptr);
+    }
+
+
+    ARKodeButcherTable
+    table_of(const Method method)
+    {
+      switch (method)
+        {
+          case Method::backward_euler:
+          case Method::implicit_backward_euler:
+            return one_stage_table(1, 1.);
+          case Method::implicit_midpoint:
+            return one_stage_table(2, 0.5);
+          case Method::sdirk2:
+            return ARKodeButcherTable_LoadDIRK(ARKODE_SDIRK_2_1_2);
+          case Method::trbdf2:
+            return ARKodeButcherTable_LoadDIRK(ARKODE_TRBDF2_3_3_2);
+          case Method::esdirk3:
+            return ARKodeButcherTable_LoadDIRK(ARKODE_ESDIRK325L2SA_5_2_3);
+          case Method::esdirk4:
+            return ARKodeButcherTable_LoadDIRK(ARKODE_ESDIRK436L2SA_6_3_4);
+          case Method::esdirk5:
+            return ARKodeButcherTable_LoadDIRK(ARKODE_ESDIRK547L2SA2_7_4_5);
+          case Method::explicit2:
+            return ARKodeButcherTable_LoadERK(ARKODE_HEUN_EULER_2_1_2);
+          case Method::explicit3:
+            return ARKodeButcherTable_LoadERK(ARKODE_BOGACKI_SHAMPINE_4_2_3);
+          case Method::explicit4:
+            return ARKodeButcherTable_LoadERK(ARKODE_ZONNEVELD_5_3_4);
+          case Method::explicit5:
+            return ARKodeButcherTable_LoadERK(ARKODE_DORMAND_PRINCE_7_4_5);
+          case Method::ida:
+            break;
+        }
+      throw ComputationError("ARKode has no such method");
+    }
+
+
+    EquationOfMotion::Rotations
+    rotations_of(const Method method)
+    {
+      return method == Method::backward_euler ? EquationOfMotion::Rotations::frozen
+                                              : EquationOfMotion::Rotations::following;
+    }
+
+
+    EquationOfMotion::HeldVelocity
+    held_velocity_of(const Method method)
+    {
+      return method == Method::backward_euler || method == Method::implicit_backward_euler
+               ? EquationOfMotion::HeldVelocity::difference
+               : EquationOfMotion::HeldVelocity::derivative;
+    }
+  } // namespace
+
+
+  ArkodeIntegrator::ArkodeIntegrator(const Model &model)
+    : DynamicIntegrator(model,
+                        rotations_of(model.parameters.time.method),
+                        held_velocity_of(model.parameters.time.method))
+    , mass_system(context)
+    , error(equation.n_unknowns(), model.body.mesh.communicator, context)
+    , last_size(settings.step)
+  {
+    create_memory();
+    set_table();
+    ARKStepSVtolerances(memory, set_tolerances(), absolute_tolerances);
+    if (!settings.is_explicit())
+      set_linear_systems();
+    if (adaptive)
+      {
+        ARKStepSetMinStep(memory, shortest_step());
+        ARKStepSetMaxStep(memory, longest_step());
+        ARKStepSetMaxFirstGrowth(memory, 10.); // not 10000: the first step was not a guess
+      }
+    else
+      set_step_size(settings.step);
+  }
+
+
+  ArkodeIntegrator::~ArkodeIntegrator()
+  {
+    ARKStepFree(&memory);
+  }
+
+
+  std::string
+  ArkodeIntegrator::name() const
+  {
+    return settings.method_name() + " (ARKode" + (adaptive ? ", variable steps)" : ")");
+  }
+
+
+  nlohmann::json
+  ArkodeIntegrator::save()
+  {
+    started = false;
+    if (adaptive)
+      ARKStepGetCurrentStep(memory, &last_size);
+    return {{"time", time}, {"grid", grid}, {"last_size", last_size}};
+  }
+
+
+  void
+  ArkodeIntegrator::load(const nlohmann::json &saved)
+  {
+    time      = saved.at("time");
+    grid      = saved.at("grid");
+    last_size = saved.at("last_size");
+  }
+
+
+  void
+  ArkodeIntegrator::create_memory()
+  {
+    const ARKRhsFn rate = [](sunrealtype time, N_Vector y, N_Vector f, void *self) {
+      auto &integrator = *static_cast<ArkodeIntegrator *>(self);
+      return integrator.failure.guard([&] {
+        integrator.evaluate(integrator.time_of(time), Sundials::data(y), Sundials::data(f));
+      });
+    };
+    memory = settings.is_explicit() ? ARKStepCreate(rate, nullptr, 0., unknowns, context)
+                                    : ARKStepCreate(nullptr, rate, 0., unknowns, context);
+    Compatibility::collect_arkode_errors(memory, context.message);
+    ARKStepSetUserData(memory, this);
+    ARKStepSetMaxNumSteps(memory, -1);
+    ARKStepSetMaxHnilWarns(memory, -1);
+
+    // Nothing is asked for between steps; the default would compute the rates at the end of each.
+    ARKStepSetInterpolantType(memory, ARK_INTERP_LAGRANGE);
+  }
+
+
+  void
+  ArkodeIntegrator::set_table()
+  {
+    const ARKodeButcherTable table = table_of(settings.method);
+    const int order                = table->q;
+    const int status               = settings.is_explicit()
+                                       ? ARKStepSetTables(memory, order, table->p, nullptr, table)
+                                       : ARKStepSetTables(memory, order, table->p, table, nullptr);
+    if (settings.is_explicit())
+      stable = find_stable_step(model.implicit_operator, table, end);
+    ARKodeButcherTable_Free(table);
+    if (status != 0)
+      throw_what_failed();
+    check_stability();
+  }
+
+
+  /** Beyond the stable step the fastest oscillations grow, and with them what the relative
+   * tolerance allows: an explicit method with a loose one would follow them to any height. */
+  double
+  ArkodeIntegrator::longest_step() const
+  {
+    const double wanted = settings.longest_step; // 0: any
+    if (!stable)
+      return wanted;
+    return wanted > 0. ? std::min(wanted, stable->step) : stable->step;
+  }
+
+
+  void
+  ArkodeIntegrator::check_stability() const
+  {
+    if (adaptive || !stable || settings.step <= stable->step)
+      return;
+    throw InputError(model.parameters.origin("Time/Step") + ": " + settings.method_name() +
+                     " is stable up to a step of " + stable->description() +
+                     ". Take a shorter step, variable steps or an implicit method.");
+  }
+
+
+  void
+  ArkodeIntegrator::set_linear_systems()
+  {
+    system.solve = [this](double *x, const double *b) {
+      return failure.guard([&] {
+        if (linear) // one solution must be right
+          {
+            sunrealtype gamma;
+            ARKStepGetCurrentGamma(memory, &gamma);
+            equation.set_gamma(gamma);
+            equation.solve(x, b);
+          }
+        else
+          equation.solve_newton(x, b);
+      });
+    };
+    mass_system.solve = [this](double *x, const double *b) {
+      return failure.guard([&] { equation.solve_mass(x, b); });
+    };
+    mass_system.product = [this](double *y, const double *x) {
+      return failure.guard([&] { equation.mass_product(y, x); });
+    };
+
+    ARKStepSetLinearSolver(memory, system.solver, system.matrix);
+    ARKStepSetLinSysFn(memory,
+                       [](sunrealtype time,
+                          N_Vector y,
+                          N_Vector,
+                          SUNMatrix,
+                          SUNMatrix,
+                          Compatibility::Boolean,
+                          Compatibility::Boolean *current,
+                          sunrealtype gamma,
+                          void *self,
+                          N_Vector,
+                          N_Vector,
+                          N_Vector) {
+                         auto &integrator = *static_cast<ArkodeIntegrator *>(self);
+                         *current         = 1;
+                         return integrator.failure.guard([&] {
+                           integrator.equation.linearize(integrator.time_of(time),
+                                                         Sundials::data(y),
+                                                         gamma);
+                         });
+                       });
+    ARKStepSetLinearSolutionScaling(memory, 0);
+
+    ARKStepSetMassLinearSolver(memory, mass_system.solver, mass_system.matrix, 0);
+    ARKStepSetMassFn(memory, [](sunrealtype, SUNMatrix, void *, N_Vector, N_Vector, N_Vector) {
+      return 0;
+    });
+
+    // The force at the end of a stage follows from the solution of its equation.
+    ARKStepSetDeduceImplicitRhs(memory, 1);
+    ARKStepSetPredictorMethod(memory, 0);
+    set_linear(settings.method == Method::backward_euler || model.forces_are_linear());
+  }
+
+
+  void
+  ArkodeIntegrator::set_linear(const bool is_linear)
+  {
+    linear = is_linear;
+    if (linear)
+      {
+        ARKStepSetLinear(memory, model.body.rotation == RotationMethod::none ? 0 : 1);
+        return;
+      }
+    ARKStepSetNonlinear(memory);
+    if (!adaptive)
+      {
+        ARKStepSetMaxNonlinIters(memory, settings.newton_limit);
+        ARKStepSetNonlinConvCoef(memory, 1.);
+        ARKStepSetLSetupFrequency(memory, 1);
+      }
+  }
+
+
+  void
+  ArkodeIntegrator::evaluate(const double time, const double *const y, double *const f)
+  {
+    equation.evaluate(f, time, y);
+    if (settings.is_explicit())
+      equation.solve_mass(f, f);
+  }
+
+
+  void
+  ArkodeIntegrator::restart(const State &state)
+  {
+    equation.get_unknowns(unknowns.data(), state);
+    ARKStepReset(memory, time, unknowns);
+    ode_time = time;
+    if (adaptive)
+      {
+        ARKStepSetStopTime(memory, end); // which the line above has made it forget
+        ARKStepSetInitStep(memory, last_size);
+      }
+    started = true;
+  }
+
+
+  /** ARKode adds step to step. A load that ends with a step must have ended in the solution as it
+   * has in the work, and in whatever else is told of this step. */
+  double
+  ArkodeIntegrator::time_of(const double at) const
+  {
+    if (adaptive)
+      return at;
+    const double from_start = time + (at - ode_start);
+    return std::abs(from_start - step_end) < grid_accuracy * settings.step ? step_end : from_start;
+  }
+
+
+  bool
+  ArkodeIntegrator::evolve()
+  {
+    context.message.clear();
+    ode_start = ode_time;
+    // a time that one step does not reach: ARKode would interpolate
+    const int status = ARKStepEvolve(memory, 2. * end, unknowns, &ode_time, ARK_ONE_STEP);
+    if (status >= 0)
+      failure.forget(); // what failed on the way was mended by a smaller step
+    return status >= 0;
+  }
+
+
+  void
+  ArkodeIntegrator::count_rejections()
+  {
+    long inaccurate, failed;
+    ARKStepGetNumErrTestFails(memory, &inaccurate);
+    ARKStepGetNumStepSolveFails(memory, &failed);
+    model.effort.rejected_steps = inaccurate + failed;
+    model.effort.failed_steps   = failed;
+  }
+
+
+  StepReport
+  ArkodeIntegrator::take_step(State &state)
+  {
+    if (!started)
+      restart(state);
+    StepReport report;
+    if (adaptive)
+      {
+        const bool succeeded = evolve();
+        count_rejections();
+        if (!succeeded)
+          throw_what_failed();
+        report.time = ode_time;
+        ARKStepGetEstLocalErrors(memory, error);
+        report.local_error = largest_displacement(error.data());
+      }
+    else
+      report = take_fixed_step(state);
+    equation.set_state(state, report.time, unknowns.data());
+
+    long count = 0;
+    if (!settings.is_explicit())
+      ARKStepGetNumNonlinSolvIters(memory, &count);
+    report.newton_iterations = linear ? 0 : count - newton_iterations;
+    newton_iterations        = count;
+    model.effort.newton_iterations += report.newton_iterations;
+    return report;
+  }
+
+
+  double
+  ArkodeIntegrator::next_step_size() const
+  {
+    if (time == grid * settings.step && std::min(last_size, size_limit) > 0.999 * settings.step)
+      return settings.step; // the very same number: nothing is factorized anew
+    const double rest   = (grid + 1) * settings.step - time;
+    const double longer = std::min(2. * last_size, size_limit);
+    return longer > 0.999 * rest ? rest : longer;
+  }
+
+
+  double
+  ArkodeIntegrator::end_of_step(const double size) const
+  {
+    const double next = (grid + 1) * settings.step;
+    return time + size > next - grid_accuracy * settings.step ? next : time + size;
+  }
+
+
+  void
+  ArkodeIntegrator::set_rotations(const EquationOfMotion::Rotations rotations)
+  {
+    equation.set_rotations(rotations);
+    set_linear(rotations == EquationOfMotion::Rotations::frozen || model.forces_are_linear());
+  }
+
+
+  /** First the same step with rotations that follow, then half of it. What rises in the smallest
+   * step too is taken as if there were no guard: many small steps would raise it further. */
+  bool
+  ArkodeIntegrator::make_safer()
+  {
+    if (given_up)
+      return false;
+    const bool smaller = !equation.rotations_are_frozen() || newton_fails;
+    given_up = smaller && last_size < settings.step * std::pow(0.5, settings.n_retries - 0.5);
+    if (given_up)
+      {
+        if (settings.method != Method::backward_euler)
+          return false;
+        set_rotations(EquationOfMotion::Rotations::frozen);
+        last_size  = settings.step;
+        size_limit = settings.step;
+      }
+    else if (smaller)
+      size_limit = 0.5 * last_size;
+    else
+      {
+        set_rotations(EquationOfMotion::Rotations::following);
+        size_limit = last_size;
+      }
+    if (time == grid * settings.step) // it is where the step to be done again has landed
+      --grid;
+    started = false;
+    return true;
+  }
+
+
+  /** Where many cells are inverted their forces jump, and Newton's method may find no solution in
+   * steps of any size. */
+  bool
+  ArkodeIntegrator::make_simpler()
+  {
+    if (settings.method != Method::backward_euler || equation.rotations_are_frozen())
+      return false;
+    set_rotations(EquationOfMotion::Rotations::frozen);
+    newton_fails = true;
+    size_limit   = 0.5 * std::min(last_size, settings.step);
+    started      = false;
+    return true;
+  }
+
+
+  void
+  ArkodeIntegrator::accept_step()
+  {
+    size_limit = std::numeric_limits<double>::max();
+    if (settings.method == Method::backward_euler && !equation.rotations_are_frozen())
+      set_rotations(EquationOfMotion::Rotations::frozen);
+    if (time == grid * settings.step)
+      newton_fails = given_up = false;
+  }
+
+
+  void
+  ArkodeIntegrator::set_step_size(const double size)
+  {
+    if (size != set_size)
+      ARKStepSetFixedStep(memory, size);
+    set_size = size;
+  }
+
+
+  void
+  ArkodeIntegrator::throw_at(const double size)
+  {
+    try
+      {
+        throw_what_failed();
+      }
+    catch (const ComputationError &error)
+      {
+        if (size == settings.step)
+          throw;
+        std::ostringstream text;
+        text << error.what() << ", even in a step of " << size << " s";
+        throw ComputationError(text.str());
+      }
+  }
+
+
+  StepReport
+  ArkodeIntegrator::take_fixed_step(State &state)
+  {
+    double size = next_step_size();
+    set_step_size(size);
+    step_end              = end_of_step(size);
+    const double smallest = settings.step * std::pow(0.5, settings.n_retries + 0.5);
+    while (!evolve())
+      {
+        if (0.5 * size < smallest)
+          throw_at(size);
+        failure.forget();
+        ++model.effort.rejected_steps;
+        ++model.effort.failed_steps;
+        model.body.update_rotations(state.block(0), model.effort);
+        restart(state);
+        set_step_size(size *= 0.5);
+        step_end = end_of_step(size);
+      }
+    last_size = size;
+
+    StepReport report;
+    report.local_error = std::numeric_limits<double>::quiet_NaN();
+    report.time        = step_end;
+    if (report.time == (grid + 1) * settings.step)
+      ++grid;
+    return report;
+  }
+} // namespace Supple

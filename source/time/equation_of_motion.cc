@@ -1,0 +1,362 @@
+#include <supple/time/equation_of_motion.h>
+
+#include <supple/base/error.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Supple
+{
+  using namespace dealii;
+
+  namespace
+  {
+    void
+    copy_out(double *to, const Vector &from)
+    {
+      std::copy_n(from.begin(), from.locally_owned_size(), to);
+    }
+
+
+    void
+    copy_in(Vector &to, const double *from)
+    {
+      std::copy_n(from, to.locally_owned_size(), to.begin());
+    }
+  } // namespace
+
+
+  EquationOfMotion::EquationOfMotion(const Model &model,
+                                     const Rotations rotations,
+                                     const HeldVelocity held_velocity)
+    : model(model)
+    , n(3 * model.body.n_owned)
+    , rotations(rotations)
+    , tangent(Tangent::frozen)
+    , held_velocity(held_velocity)
+    , inertia_couples(!model.parameters.material.lumped &&
+                      model.parameters.material.vertex_mass == 0.)
+    , mass_solver(model.implicit_operator)
+  {
+    for (Vector *vector :
+         {&start_displacement, &displacement, &velocity, &force, &scratch, &solution})
+      model.body.initialize(*vector);
+    if (model.constraints.move())
+      for (Vector *vector :
+           {&start_velocity, &prescribed_displacement, &prescribed_velocity, &shift})
+        model.body.initialize(*vector);
+
+    set_rotations(rotations);
+  }
+
+
+  void
+  EquationOfMotion::set_rotations(const Rotations new_rotations)
+  {
+    using Choice = TimeParameters::TangentChoice;
+    rotations    = new_rotations;
+    tangent      = Tangent::frozen;
+    if (rotations == Rotations::following && model.body.rotation == RotationMethod::polar &&
+        model.parameters.time.tangent != Choice::frozen)
+      tangent =
+        model.parameters.time.tangent == Choice::definite ? Tangent::definite : Tangent::consistent;
+    gives_way =
+      model.parameters.time.tangent == Choice::automatic && tangent == Tangent::consistent;
+  }
+
+
+  void
+  EquationOfMotion::begin_step(const double time, const State &state)
+  {
+    step_start         = time;
+    replaced           = false;
+    start_displacement = state.block(0);
+    if (model.constraints.move())
+      {
+        start_velocity  = state.block(1);
+        prescribed_time = -1.; // the same time may have another velocity in another step
+      }
+  }
+
+
+  void
+  EquationOfMotion::get_unknowns(double *y, const State &state)
+  {
+    contraction = 1.; // nothing is known of what was
+    stage_time  = -1.;
+    scratch     = state.block(0);
+    model.constraints.set_zero(scratch);
+    copy_out(y, scratch);
+    scratch = state.block(1);
+    model.constraints.set_zero(scratch);
+    if (model.constraints.move())
+      {
+        set_shift(state.block(1));
+        scratch += shift;
+        prescribed_time = -1.;
+      }
+    copy_out(y + n, scratch);
+  }
+
+
+  void
+  EquationOfMotion::set_state(State &state, const double time, const double *y)
+  {
+    complete(time, y);
+    state.block(0) = displacement;
+    state.block(1) = velocity;
+  }
+
+
+  void
+  EquationOfMotion::complete(const double time, const double *y)
+  {
+    copy_in(displacement, y);
+    copy_in(velocity, y + n);
+    if (model.constraints.move())
+      {
+        if (time != prescribed_time)
+          prescribe(time);
+        velocity -= shift;
+        model.constraints.copy_held(displacement, prescribed_displacement);
+        model.constraints.copy_held(velocity, prescribed_velocity);
+      }
+  }
+
+
+  void
+  EquationOfMotion::prescribe(const double time)
+  {
+    model.constraints.set_displacement(prescribed_displacement, time);
+    set_held_velocity(prescribed_velocity, time);
+    set_shift(prescribed_velocity);
+    prescribed_time = time;
+  }
+
+
+  void
+  EquationOfMotion::set_held_velocity(Vector &held, const double time)
+  {
+    if (held_velocity == HeldVelocity::derivative)
+      {
+        // Of what lies within the step: a motion may have kinks where steps meet.
+        const double interval = model.parameters.time.derivative_interval();
+        const bool at_start   = time - step_start < 4. * interval;
+        model.constraints.set_velocity(held, time, at_start ? interval : -interval);
+      }
+    else if (time <= step_start)
+      held = start_velocity;
+    else
+      {
+        held = prescribed_displacement;
+        held -= start_displacement;
+        held *= 1. / (time - step_start);
+      }
+  }
+
+
+  void
+  EquationOfMotion::set_shift(const Vector &held)
+  {
+    shift = 0.;
+    if (!inertia_couples)
+      return;
+    model.constraints.copy_held(shift, held);
+    full_mass_product(force, shift);
+    model.constraints.set_zero(force);
+    shift = 0.;
+    mass_solver.solve(shift, force);
+  }
+
+
+  const Vector &
+  EquationOfMotion::pushed_surface(const Vector &at_the_end) const
+  {
+    return rotations == Rotations::frozen ? start_displacement : at_the_end;
+  }
+
+
+  void
+  EquationOfMotion::evaluate(double *f, const double time, const double *y)
+  {
+    const DampingParameters &damping = model.parameters.damping;
+    if (time != stage_time)
+      stage_solutions = 0;
+    stage_time = time;
+    complete(time, y);
+    if (rotations == Rotations::following)
+      model.body.update_rotations(displacement, model.effort);
+
+    scratch = velocity;
+    model.constraints.set_zero(scratch);
+    copy_out(f, scratch);
+
+    // For the rotations of the moment the force is linear: f_int(u) + b K' v = f_int(u + b v).
+    scratch = displacement;
+    if (damping.stiffness_factor > 0.)
+      scratch.add(damping.stiffness_factor, velocity);
+    model.body.internal_force(force, scratch, model.effort);
+    force.sadd(-1., 1., model.loads.force(time, pushed_surface(displacement)));
+
+    if (damping.mass_factor > 0.)
+      {
+        full_mass_product(scratch, velocity);
+        force.add(-damping.mass_factor, scratch);
+      }
+    if (damping.viscous > 0.)
+      force.add(-damping.viscous, velocity);
+    model.constraints.set_zero(force);
+    if (!all_finite(force))
+      throw ComputationError("the forces are not finite numbers");
+    copy_out(f + n, force);
+  }
+
+
+  void
+  EquationOfMotion::mass_product(double *y, const double *x)
+  {
+    std::copy_n(x, n, y);
+    copy_in(scratch, x + n);
+    model.implicit_operator.mass_vmult(force, scratch);
+    copy_out(y + n, force);
+  }
+
+
+  void
+  EquationOfMotion::solve_mass(double *x, const double *b)
+  {
+    const PhaseTimer timer(model.effort, Phase::solve);
+    const std::vector<double> &mass = model.implicit_operator.mass_matrix().diagonal;
+    std::copy_n(b, n, x);
+    copy_in(scratch, b + n);
+    if (inertia_couples)
+      {
+        // The last linear system of an implicit step of one stage has found this increment already.
+        mass_solver.solve(solution, scratch);
+        copy_out(x + n, solution);
+      }
+    else
+      for (unsigned int i = 0; i < n; ++i)
+        x[n + i] = b[n + i] / mass[i / 3];
+  }
+
+
+  void
+  EquationOfMotion::linearize(const double time, const double *y, const double new_gamma)
+  {
+    gamma = new_gamma;
+    complete(time, y);
+    if (rotations == Rotations::following)
+      model.body.update_rotations(displacement, model.effort);
+    relinearize();
+  }
+
+
+  void
+  EquationOfMotion::relinearize()
+  {
+    try
+      {
+        assemble();
+      }
+    catch (const ComputationError &)
+      {
+        if (!gives_way || replaced)
+          throw;
+        replaced = true;
+        assemble();
+      }
+  }
+
+
+  void
+  EquationOfMotion::set_gamma(const double new_gamma)
+  {
+    if (std::abs(new_gamma - gamma) <= 1e-12 * new_gamma)
+      return;
+    gamma = new_gamma;
+    assemble();
+  }
+
+
+  void
+  EquationOfMotion::assemble()
+  {
+    model.body.update_rotation_stiffness(replaced ? Tangent::definite : tangent,
+                                         displacement,
+                                         model.effort);
+    if (model.implicit_operator.assemble(gamma))
+      model.solver.prepare(displacement);
+  }
+
+
+  void
+  EquationOfMotion::solve(double *x, const double *b)
+  {
+    copy_in(scratch, b);
+    model.implicit_operator.stiffness_vmult(force, scratch);
+    copy_in(scratch, b + n);
+    force.sadd(-gamma, 1., scratch);
+    model.constraints.set_zero(force);
+    try
+      {
+        linear_iterations += model.solver.solve(solution, force);
+      }
+    catch (const ComputationError &)
+      {
+        if (!gives_way || replaced)
+          throw;
+        replaced = true;
+        assemble();
+        linear_iterations += model.solver.solve(solution, force);
+      }
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const double increment = solution.local_element(i);
+
+        x[n + i] = increment;
+        x[i]     = b[i] + gamma * increment;
+      }
+  }
+
+
+  /**
+   * An operator that is one iteration old contracts the error about as much as the second
+   * correction is smaller than the first. Up to a tenth that is cheaper than to assemble and
+   * factorize anew.
+   */
+  void
+  EquationOfMotion::solve_newton(double *x, const double *b)
+  {
+    if (stage_solutions > 0 && contraction > 0.1)
+      assemble();
+    solve(x, b);
+    const double norm = solution.l2_norm();
+    if (stage_solutions == 1)
+      contraction = norm / correction;
+    else if (stage_solutions > 1 && norm > 0.3 * correction)
+      contraction = 1.;
+    correction = norm;
+    ++stage_solutions;
+  }
+
+
+  void
+  EquationOfMotion::full_mass_product(Vector &y, const Vector &x) const
+  {
+    const GhostValues values(x);
+    sum_into(y, [&](double *sum) { model.body.cells->add_mass_product(values.data(), sum); });
+  }
+
+
+  void
+  EquationOfMotion::full_damping_product(Vector &y, const Vector &x)
+  {
+    const DampingParameters &damping = model.parameters.damping;
+    const GhostValues values(x);
+    sum_into(y, [&](double *sum) { model.body.add_stiffness_product(values.data(), sum); });
+    y *= damping.stiffness_factor;
+    full_mass_product(scratch, x);
+    y.add(damping.mass_factor, scratch, damping.viscous, x);
+  }
+} // namespace Supple
