@@ -2,6 +2,7 @@
 // here boxes and rectangles with displaced inner vertices and a Poisson ratio of 0.499.
 
 #include <supple/mechanics/volumetric_patches.h>
+#include <supple/mesh/mesh_generators.h>
 #include <supple/mesh/patches.h>
 
 #include <deal.II/base/mpi.h>

@@ -2,6 +2,7 @@
 // displaced inner vertices.
 
 #include <supple/mechanics/cells.h>
+#include <supple/mesh/mesh_generators.h>
 #include <supple/mesh/serial_mesh.h>
 
 #include <Eigen/Dense>

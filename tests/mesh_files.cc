@@ -3,6 +3,8 @@
 
 #include <supple/base/error.h>
 #include <supple/mesh/mesh_check.h>
+#include <supple/mesh/mesh_generators.h>
+#include <supple/mesh/mesh_reader.h>
 #include <supple/mesh/separate_process.h>
 
 #include <cstdio>

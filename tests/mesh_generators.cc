@@ -2,6 +2,7 @@
 // cell by cell as in data/bar and data/vein.
 
 #include <supple/mesh/mesh_check.h>
+#include <supple/mesh/mesh_generators.h>
 
 #include <deal.II/base/utilities.h>
 

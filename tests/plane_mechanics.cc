@@ -2,6 +2,7 @@
 // displaced inner vertices, in plane strain, plane stress and around an axis.
 
 #include <supple/mechanics/cells.h>
+#include <supple/mesh/mesh_generators.h>
 #include <supple/mesh/serial_mesh.h>
 
 #include <algorithm>

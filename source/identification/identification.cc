@@ -1,8 +1,8 @@
+#include <supple/base/csv_file.h>
 #include <supple/base/error.h>
+#include <supple/base/files.h>
 #include <supple/base/interrupt.h>
-#include <supple/base/output_folder.h>
 #include <supple/base/progress.h>
-#include <supple/base/tables.h>
 #include <supple/identification/identification.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-#include <supple/base/digits.h>
-#include <supple/base/tables.h>
+#include <supple/base/csv_file.h>
+#include <supple/base/files.h>
+#include <supple/base/text.h>
 #include <supple/identification/identification_table.h>
 #include <supple/output/gnuplot.h>
 

@@ -1,4 +1,4 @@
-#include <supple/base/digits.h>
+#include <supple/base/text.h>
 #include <supple/identification/identification_table.h>
 
 #include <algorithm>

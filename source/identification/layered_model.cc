@@ -1,7 +1,6 @@
-#include <supple/base/digits.h>
 #include <supple/base/error.h>
 #include <supple/base/expression.h>
-#include <supple/base/near_name.h>
+#include <supple/base/text.h>
 #include <supple/identification/layered_model.h>
 #include <supple/run/simulation.h>
 

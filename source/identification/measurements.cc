@@ -1,5 +1,5 @@
 #include <supple/base/error.h>
-#include <supple/base/line_length.h>
+#include <supple/base/text.h>
 #include <supple/identification/measurements.h>
 
 #include <deal.II/base/utilities.h>

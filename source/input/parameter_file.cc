@@ -1,6 +1,5 @@
 #include <supple/base/error.h>
-#include <supple/base/line_length.h>
-#include <supple/base/near_name.h>
+#include <supple/base/text.h>
 #include <supple/input/parameter_file.h>
 
 #include <deal.II/base/utilities.h>

@@ -1,5 +1,4 @@
-#include <supple/base/huge_pages.h>
-#include <supple/base/prefetch.h>
+#include <supple/base/memory.h>
 #include <supple/linear_algebra/block_matrix.h>
 
 #include <algorithm>

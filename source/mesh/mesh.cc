@@ -1,4 +1,6 @@
 #include <supple/mesh/mesh.h>
+#include <supple/mesh/mesh_generators.h>
+#include <supple/mesh/mesh_reader.h>
 
 #include <supple/base/error.h>
 #include <supple/base/expression.h>

@@ -1,5 +1,4 @@
-#include <supple/base/huge_pages.h>
-#include <supple/base/prefetch.h>
+#include <supple/base/memory.h>
 #include <supple/multigrid/block_smoother.h>
 
 #include <Eigen/Dense>

@@ -1,5 +1,6 @@
+#include <supple/base/csv_file.h>
 #include <supple/base/error.h>
-#include <supple/base/tables.h>
+#include <supple/base/files.h>
 #include <supple/output/checkpoint.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,6 +1,7 @@
+#include <supple/base/files.h>
 #include <supple/output/frames.h>
 
-#include <supple/base/tables.h>
+#include <supple/base/csv_file.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>

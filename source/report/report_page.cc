@@ -1,7 +1,8 @@
+#include <supple/base/files.h>
 #include <supple/report/report_page.h>
 
+#include <supple/base/csv_file.h>
 #include <supple/base/error.h>
-#include <supple/base/tables.h>
 
 #include <deal.II/base/utilities.h>
 

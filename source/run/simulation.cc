@@ -1,7 +1,7 @@
 #include <supple/base/error.h>
 #include <supple/base/expression.h>
+#include <supple/base/files.h>
 #include <supple/base/interrupt.h>
-#include <supple/base/output_folder.h>
 #include <supple/report/report.h>
 #include <supple/run/simulation.h>
 #include <supple/run/summary.h>

@@ -1,6 +1,6 @@
 // What a simulation says on the screen, and of itself in its summary.
 
-#include <supple/base/digits.h>
+#include <supple/base/text.h>
 #include <supple/run/simulation.h>
 
 #include <deal.II/base/mpi.h>

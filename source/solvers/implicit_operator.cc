@@ -1,4 +1,4 @@
-#include <supple/base/prefetch.h>
+#include <supple/base/memory.h>
 #include <supple/solvers/implicit_operator.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,11 +1,11 @@
 #include <supple/study/study.h>
 
-#include <supple/base/digits.h>
+#include <supple/base/csv_file.h>
 #include <supple/base/error.h>
+#include <supple/base/files.h>
 #include <supple/base/interrupt.h>
-#include <supple/base/output_folder.h>
 #include <supple/base/progress.h>
-#include <supple/base/tables.h>
+#include <supple/base/text.h>
 
 #include <deal.II/base/mpi.h>
 

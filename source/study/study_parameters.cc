@@ -1,7 +1,7 @@
 #include <supple/study/study_parameters.h>
 
 #include <supple/base/error.h>
-#include <supple/input/patterns.h>
+#include <supple/input/entries.h>
 
 #include <deal.II/base/patterns.h>
 

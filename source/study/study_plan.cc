@@ -1,8 +1,8 @@
 #include <supple/study/study_plan.h>
 
-#include <supple/base/digits.h>
 #include <supple/base/error.h>
 #include <supple/base/expression.h>
+#include <supple/base/text.h>
 
 #include <deal.II/base/utilities.h>
 

@@ -1,4 +1,5 @@
-#include <supple/base/tables.h>
+#include <supple/base/csv_file.h>
+#include <supple/base/files.h>
 #include <supple/output/gnuplot.h>
 #include <supple/study/study_table.h>
 

@@ -1,7 +1,7 @@
 #include <supple/study/study_quantities.h>
 
 #include <supple/base/error.h>
-#include <supple/base/near_name.h>
+#include <supple/base/text.h>
 
 #include <deal.II/base/utilities.h>
 

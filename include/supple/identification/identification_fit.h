@@ -1,12 +1,19 @@
 #ifndef supple_identification_fit_h
 #define supple_identification_fit_h
 
-#include <supple/identification/layer_pair.h>
 
 #include <functional>
 
 namespace Supple
 {
+  /** Thickness of the upper layer [m], and its Young modulus over that of the lower one. */
+  struct LayerPair
+  {
+    double thickness;
+    double ratio;
+  };
+
+
   /** A pair, and the value of the function there. */
   struct FitPoint
   {

@@ -1,8 +1,8 @@
 #ifndef supple_layered_model_h
 #define supple_layered_model_h
 
+#include <supple/identification/identification_fit.h>
 #include <supple/identification/identification_parameters.h>
-#include <supple/identification/layer_pair.h>
 #include <supple/scene/parameters.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,7 +1,7 @@
 #ifndef supple_cells_h
 #define supple_cells_h
 
-#include <supple/base/prefetch.h>
+#include <supple/base/memory.h>
 #include <supple/linear_algebra/block_matrix.h>
 #include <supple/mechanics/material.h>
 #include <supple/mechanics/rotation.h>

@@ -4,7 +4,6 @@
 #include <supple/linear_algebra/halo.h>
 #include <supple/multigrid/block_smoother.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -52,12 +51,7 @@ namespace Supple
 
     /** Of a node that is known. */
     std::uint32_t
-    local(const std::uint32_t global) const
-    {
-      if (owns(global))
-        return global - first_own;
-      return n_owned + (std::lower_bound(ghosts.begin(), ghosts.end(), global) - ghosts.begin());
-    }
+    local(std::uint32_t global) const;
 
     std::uint32_t
     global(const std::uint32_t local) const
@@ -67,15 +61,7 @@ namespace Supple
 
     /** Sorts the ghosts, and leaves those out that are not. */
     void
-    complete()
-    {
-      std::sort(ghosts.begin(), ghosts.end());
-      ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
-      ghosts.erase(std::remove_if(ghosts.begin(),
-                                  ghosts.end(),
-                                  [this](const auto node) { return owns(node); }),
-                   ghosts.end());
-    }
+    complete();
 
     std::uint32_t
     n_local() const

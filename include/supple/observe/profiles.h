@@ -1,7 +1,7 @@
 #ifndef supple_profiles_h
 #define supple_profiles_h
 
-#include <supple/base/tables.h>
+#include <supple/base/csv_file.h>
 #include <supple/mechanics/body.h>
 
 #include <nlohmann/json_fwd.hpp>

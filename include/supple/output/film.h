@@ -2,7 +2,7 @@
 #define supple_film_h
 
 #include <supple/mechanics/body.h>
-#include <supple/output/drawing.h>
+#include <supple/output/vtu.h>
 
 #include <nlohmann/json_fwd.hpp>
 

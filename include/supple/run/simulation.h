@@ -1,8 +1,8 @@
 #ifndef supple_simulation_h
 #define supple_simulation_h
 
+#include <supple/base/csv_file.h>
 #include <supple/base/progress.h>
-#include <supple/base/tables.h>
 #include <supple/observe/diagnostics.h>
 #include <supple/observe/probes.h>
 #include <supple/observe/profiles.h>

@@ -1,4 +1,4 @@
-#include <supple/base/near_name.h>
+#include <supple/base/text.h>
 
 #include <algorithm>
 #include <cctype>

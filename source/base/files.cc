@@ -1,7 +1,11 @@
-#include <supple/base/output_folder.h>
+#include <supple/base/files.h>
 
 #include <supple/base/error.h>
 #include <supple/base/first_process.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
 
 namespace Supple
 {
@@ -25,5 +29,26 @@ namespace Supple
                            exception.what() + "). Name another one with --output.");
         }
     });
+  }
+
+
+  void
+  write_whole_file(const std::string &file, const std::string &content)
+  {
+    const std::string aside = file + ".partial";
+    {
+      std::ofstream stream(aside);
+      stream << content << std::flush;
+      if (!stream)
+        {
+          stream.close();
+          std::remove(aside.c_str());
+          throw WriteError(file + " can't be written; is the disk full?");
+        }
+    }
+    std::error_code problem;
+    std::filesystem::rename(aside, file, problem);
+    if (problem)
+      throw WriteError(file + " can't be written (" + problem.message() + ").");
   }
 } // namespace Supple

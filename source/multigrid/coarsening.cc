@@ -1,4 +1,4 @@
-#include <supple/base/huge_pages.h>
+#include <supple/base/memory.h>
 #include <supple/multigrid/coarsening.h>
 
 #include <deal.II/base/mpi.h>

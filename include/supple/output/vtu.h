@@ -1,5 +1,5 @@
-#ifndef supple_drawing_h
-#define supple_drawing_h
+#ifndef supple_vtu_h
+#define supple_vtu_h
 
 #include <supple/mesh/distributed_mesh.h>
 

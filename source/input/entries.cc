@@ -1,9 +1,8 @@
-#include <supple/input/patterns.h>
-
-#include <deal.II/base/utilities.h>
+#include <supple/input/entries.h>
 
 #include <cmath>
 #include <cstdlib>
+#include <deal.II/base/utilities.h>
 #include <limits>
 #include <regex>
 #include <sstream>

@@ -1,8 +1,7 @@
-#include <supple/base/huge_pages.h>
-
-#include <sys/mman.h>
+#include <supple/base/memory.h>
 
 #include <cstdint>
+#include <sys/mman.h>
 
 namespace Supple
 {

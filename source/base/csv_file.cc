@@ -1,8 +1,8 @@
-#include <supple/base/error.h>
-#include <supple/base/tables.h>
+#include <supple/base/csv_file.h>
 
-#include <cstdio>
-#include <filesystem>
+#include <supple/base/error.h>
+#include <supple/base/files.h>
+
 #include <sstream>
 
 namespace Supple
@@ -70,26 +70,5 @@ namespace Supple
     stream << text.str() << std::flush;
     if (!stream)
       throw WriteError(file + " can't be written any more; is the disk full?");
-  }
-
-
-  void
-  write_whole_file(const std::string &file, const std::string &content)
-  {
-    const std::string aside = file + ".partial";
-    {
-      std::ofstream stream(aside);
-      stream << content << std::flush;
-      if (!stream)
-        {
-          stream.close();
-          std::remove(aside.c_str());
-          throw WriteError(file + " can't be written; is the disk full?");
-        }
-    }
-    std::error_code problem;
-    std::filesystem::rename(aside, file, problem);
-    if (problem)
-      throw WriteError(file + " can't be written (" + problem.message() + ").");
   }
 } // namespace Supple

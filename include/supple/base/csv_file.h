@@ -1,5 +1,5 @@
-#ifndef supple_tables_h
-#define supple_tables_h
+#ifndef supple_csv_file_h
+#define supple_csv_file_h
 
 #include <fstream>
 #include <string>
@@ -30,12 +30,6 @@ namespace Supple
     const std::string file;
     std::ofstream stream;
   };
-
-
-  /** Writes a text file aside and renames it, so that it is there as a whole or not at all. @throws
-   * WriteError */
-  void
-  write_whole_file(const std::string &file, const std::string &content);
 } // namespace Supple
 
 #endif

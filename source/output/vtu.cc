@@ -1,4 +1,4 @@
-#include <supple/output/drawing.h>
+#include <supple/output/vtu.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/grid/reference_cell.h>

@@ -1,9 +1,8 @@
-#ifndef supple_output_folder_h
-#define supple_output_folder_h
-
-#include <mpi.h>
+#ifndef supple_files_h
+#define supple_files_h
 
 #include <functional>
+#include <mpi.h>
 #include <string>
 
 namespace Supple
@@ -17,6 +16,12 @@ namespace Supple
   prepare_output_folder(const std::string &folder,
                         MPI_Comm communicator,
                         const std::function<void()> &make);
+
+
+  /** Writes a text file aside and renames it, so that it is there as a whole or not at all. @throws
+   * WriteError */
+  void
+  write_whole_file(const std::string &file, const std::string &content);
 } // namespace Supple
 
 #endif
