@@ -3,6 +3,7 @@
 // have.
 
 #include <supple/multigrid/coarsening.h>
+#include <supple/scene/read_scene.h>
 #include <supple/solvers/implicit_operator.h>
 
 #include <deal.II/base/mpi.h>
@@ -165,12 +166,13 @@ main(int argc, char **argv)
       << "subsection Mesh\n  set Box size = 4, 12, 4\n  set Box cubes = 8, 24, 8\nend\n"
          "subsection Constraints\n  set Clamped boundaries = 3\nend\n";
   MPI_Barrier(communicator);
-  const Parameters parameters = Parameters::read("bar.prm", {});
+  const Parameters parameters = read_scene("bar.prm");
   Effort effort;
-  const Mesh mesh(parameters, communicator);
-  const Body body(mesh, parameters);
-  const Constraints constraints(body, parameters);
-  ImplicitOperator A(body, constraints, parameters, effort);
+  const Mesh mesh = make_mesh(parameters, communicator);
+  const Body body(
+    mesh, parameters.material, parameters.corotation, parameters.solver.threads, parameters.file);
+  const Constraints constraints(body, parameters.constraints, parameters.motions, parameters.file);
+  ImplicitOperator A(body, constraints, parameters.damping, parameters.corotation, true, effort);
   A.assemble(0.07);
   for (const std::uint32_t largest_replicated : {0u, 1000000u})
     {

@@ -5,6 +5,7 @@
 //   kernels [--benchmark_... of Google Benchmark] SCENE.prm [Section/Entry=value]...
 
 #include <supple/multigrid/block_smoother.h>
+#include <supple/scene/read_scene.h>
 #include <supple/solvers/implicit_operator.h>
 
 #include <deal.II/base/mpi.h>
@@ -31,11 +32,15 @@ namespace
     std::vector<NodeValues<3>> z, b, r, change, product;
 
     Bar(const std::string &scene, const std::vector<Override> &changes)
-      : parameters(Parameters::read(scene, changes))
-      , mesh(parameters, MPI_COMM_WORLD)
-      , body(mesh, parameters)
-      , constraints(body, parameters)
-      , A(body, constraints, parameters, effort)
+      : parameters(read_scene(scene, changes))
+      , mesh(make_mesh(parameters, MPI_COMM_WORLD))
+      , body(mesh,
+             parameters.material,
+             parameters.corotation,
+             parameters.solver.threads,
+             parameters.file)
+      , constraints(body, parameters.constraints, parameters.motions, parameters.file)
+      , A(body, constraints, parameters.damping, parameters.corotation, true, effort)
       , smoother(A.matrix().pattern)
       , z(body.n_local)
       , b(body.n_local)

@@ -4,6 +4,7 @@
 //
 //   overhead SCENE.prm [repetitions [integrator | loop]]
 
+#include <supple/scene/read_scene.h>
 #include <supple/time/time_integrator.h>
 
 #include <algorithm>
@@ -29,17 +30,26 @@ namespace
     State state;
 
     explicit Run(const std::string &scene)
-      : parameters(Parameters::read(scene))
-      , mesh(parameters, MPI_COMM_WORLD)
-      , body(mesh, parameters)
-      , constraints(body, parameters)
-      , loads(body, parameters)
-      , implicit_operator(body, constraints, parameters, effort)
-      , solver(LinearSolver::create(implicit_operator, parameters, effort))
+      : parameters(read_scene(scene))
+      , mesh(make_mesh(parameters, MPI_COMM_WORLD))
+      , body(mesh,
+             parameters.material,
+             parameters.corotation,
+             parameters.solver.threads,
+             parameters.file)
+      , constraints(body, parameters.constraints, parameters.motions, parameters.file)
+      , loads(body, parameters.loads, parameters.file)
+      , implicit_operator(body,
+                          constraints,
+                          parameters.damping,
+                          parameters.corotation,
+                          true,
+                          effort)
+      , solver(LinearSolver::create(implicit_operator, parameters.solver, parameters.file, effort))
       , state(2)
     {
       if (parameters.damping.any() || constraints.move() || loads.follow() ||
-          parameters.time.method != TimeParameters::Method::backward_euler)
+          parameters.time.method != TimeMethod::backward_euler)
         throw std::runtime_error(
           "the bare loop knows backward Euler without damping, motions and pressure");
       for (unsigned int b = 0; b < 2; ++b)
@@ -121,9 +131,17 @@ namespace
 
     explicit ByIntegrator(const std::string &scene)
       : Run(scene)
-      , integrator(TimeIntegrator::create(
-          {body, constraints, loads, implicit_operator, *solver, parameters, effort},
-          state.block(0)))
+      , integrator(TimeIntegrator::create({body,
+                                           constraints,
+                                           loads,
+                                           implicit_operator,
+                                           *solver,
+                                           parameters.time,
+                                           parameters.damping,
+                                           parameters.material,
+                                           parameters.file,
+                                           effort},
+                                          state.block(0)))
     {
     }
 

@@ -8,25 +8,25 @@ namespace Supple
 {
   using namespace dealii;
 
-  Loads::Loads(const Body &body, const Parameters &parameters)
+  Loads::Loads(const Body &body, const LoadParameters &parameters, const ParameterFile &scene)
     : body(body)
-    , body_force(parameters.loads.body_force, 3, parameters.origin("Loads/Body force"))
-    , nodal_force(parameters.loads.nodal_force, 3, parameters.origin("Loads/Nodal force"))
-    , traction(parameters.loads.traction, 3, parameters.origin("Loads/Traction"))
-    , pressure(parameters.loads.pressure, 1, parameters.origin("Loads/Pressure"))
-    , pressure_follows(parameters.loads.pressure_follows)
+    , body_force(parameters.body_force, 3, scene.origin("Loads/Body force"))
+    , nodal_force(parameters.nodal_force, 3, scene.origin("Loads/Nodal force"))
+    , traction(parameters.traction, 3, scene.origin("Loads/Traction"))
+    , pressure(parameters.pressure, 1, scene.origin("Loads/Pressure"))
+    , pressure_follows(parameters.pressure_follows)
   {
     std::vector<double> mass(body.n_local);
     body.cells->add_nodal_mass(mass.data());
     body.initialize(gravity);
     for (unsigned int node = 0; node < body.n_owned; ++node)
       for (unsigned int i = 0; i < 3; ++i)
-        gravity.local_element(3 * node + i) = mass[node] * parameters.loads.gravity[i];
+        gravity.local_element(3 * node + i) = mass[node] * parameters.gravity[i];
 
     if (!nodal_force.is_zero())
       {
-        const auto nodes = body.selected_nodes(Utilities::trim(parameters.loads.nodal_force_on),
-                                               parameters.origin("Loads/Nodal force on"));
+        const auto nodes = body.selected_nodes(Utilities::trim(parameters.nodal_force_on),
+                                               scene.origin("Loads/Nodal force on"));
         for (unsigned int node = 0; node < body.n_owned; ++node)
           if (nodes[node])
             forced_nodes.push_back(node);
@@ -35,12 +35,12 @@ namespace Supple
                            const std::vector<unsigned int> &ids,
                            const std::string &name) {
       if (!expression.is_zero() && ids.empty())
-        throw InputError(parameters.origin("Loads/" + name) + ": it acts nowhere; set \"" + name +
+        throw InputError(scene.origin("Loads/" + name) + ": it acts nowhere; set \"" + name +
                          " on\" to boundary ids.");
-      return body.boundary_faces(ids, parameters.origin("Loads/" + name + " on"));
+      return body.boundary_faces(ids, scene.origin("Loads/" + name + " on"));
     };
-    traction_faces = faces(traction, parameters.loads.traction_on, "Traction");
-    pressure_faces = faces(pressure, parameters.loads.pressure_on, "Pressure");
+    traction_faces = faces(traction, parameters.traction_on, "Traction");
+    pressure_faces = faces(pressure, parameters.pressure_on, "Pressure");
 
     applied =
       !body_force.is_zero() || !nodal_force.is_zero() || !traction.is_zero() || !pressure.is_zero();
@@ -54,7 +54,7 @@ namespace Supple
         Vector rest;
         body.initialize(rest);
         if (!all_finite(force(0., rest)))
-          throw InputError(parameters.origin("Loads/Body force") +
+          throw InputError(scene.origin("Loads/Body force") +
                            ": the loads are not finite numbers at every vertex at time 0.");
       }
   }

@@ -2,6 +2,7 @@
 #include <supple/base/expression.h>
 #include <supple/base/text.h>
 #include <supple/identification/layered_model.h>
+#include <supple/input/entries.h>
 #include <supple/run/simulation.h>
 
 #include <algorithm>
@@ -68,7 +69,7 @@ namespace Supple
       throw InputError(base.origin("Mesh/Shape") +
                        ": an identification changes the layers of a box or a rectangle.");
     if (base.material.constants != MaterialParameters::Constants::young_poisson)
-      throw InputError(base.origin("Material/Constants") +
+      throw InputError(base.origin("Material/Elastic constants") +
                        ": an identification needs Young modulus and Poisson ratio.");
     const std::string here = base.origin("Material/By id");
     const auto exceptions  = base.material.exceptions(here);

@@ -22,26 +22,30 @@ namespace Supple
 
 
     unsigned int
-    threads_for(const std::size_t n_cells, const SolverParameters &parameters)
+    threads_for(const std::size_t n_cells, const unsigned int most)
     {
       const std::size_t sensible = std::max<std::size_t>(1, n_cells / least_cells);
-      return std::min<std::size_t>(parameters.threads, sensible);
+      return std::min<std::size_t>(most, sensible);
     }
   } // namespace
 
 
-  Body::Body(const Mesh &mesh, const Parameters &parameters)
+  Body::Body(const Mesh &mesh,
+             const MaterialParameters &material,
+             const CorotationParameters &corotation,
+             const unsigned int most_threads,
+             const ParameterFile &scene)
     : mesh(mesh)
-    , rotation(parameters.corotation.rotation)
+    , rotation(corotation.rotation)
     , partitioner(mesh.parts->partitioner)
-    , n_threads(threads_for(mesh.parts->cells.size(), parameters.solver))
+    , n_threads(threads_for(mesh.parts->cells.size(), most_threads))
     , n_owned(mesh.parts->n_owned)
     , n_local(mesh.parts->n_local)
     , positions(mesh.parts->positions)
     , serial_vertex(mesh.parts->serial_vertex)
   {
     MultithreadInfo::set_thread_limit(n_threads); // deal.II's vectors have as many
-    collect_cells(parameters);
+    collect_cells(material, scene);
   }
 
 
@@ -61,21 +65,20 @@ namespace Supple
 
 
   void
-  Body::collect_cells(const Parameters &parameters)
+  Body::collect_cells(const MaterialParameters &parameters, const ParameterFile &scene)
   {
-    const auto exceptions = parameters.material.exceptions(parameters.origin("Material/By id"));
+    const auto exceptions = parameters.exceptions(scene.origin("Material/By id"));
     for (const auto &[id, n_cells] : mesh.materials)
       {
         const auto exception = exceptions.find(id);
-        materials[id] =
-          exception == exceptions.end() ? parameters.material.preset() : exception->second;
+        materials[id] = exception == exceptions.end() ? parameters.preset() : exception->second;
       }
     for (const auto &[id, other_material] : exceptions)
       if (mesh.materials.find(id) == mesh.materials.end())
-        throw InputError(parameters.origin("Material/By id") + ": no cell has the material id " +
+        throw InputError(scene.origin("Material/By id") + ": no cell has the material id " +
                          std::to_string(id) + ".");
 
-    const bool cured = parameters.material.cure == MaterialParameters::LockingCure::patches;
+    const bool cured = parameters.cure == MaterialParameters::LockingCure::patches;
     std::vector<Cell> known_cells;
     std::vector<PatchCell> patch_cells;
     for (const LocalCell &cell : mesh.parts->cells)
@@ -87,7 +90,7 @@ namespace Supple
         if (!touches_owned && !cell.owned)
           continue;
         IsotropicMaterial cell_is_of = material(cell.material_id);
-        if (parameters.material.vertex_mass > 0.)
+        if (parameters.vertex_mass > 0.)
           cell_is_of.density = 0.;
         if (cured)
           {
@@ -103,8 +106,8 @@ namespace Supple
     cells = std::make_unique<Cells>(positions,
                                     n_owned,
                                     known_cells,
-                                    parameters.material.lumped,
-                                    parameters.material.vertex_mass,
+                                    parameters.lumped,
+                                    parameters.vertex_mass,
                                     mesh.section,
                                     n_threads);
     if (cured)
@@ -113,7 +116,7 @@ namespace Supple
                                                     n_owned,
                                                     rotation == RotationMethod::none
                                                       ? VolumeMeasure::trace
-                                                      : parameters.material.volume_measure,
+                                                      : parameters.volume_measure,
                                                     mesh.parts->patch_partitioner);
   }
 

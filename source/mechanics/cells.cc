@@ -146,7 +146,7 @@ namespace Supple
     else
       batch.volume[lane] = shape_gradients(X, g);
 
-    const IsotropicMaterial material = section.effective(cell.material);
+    const IsotropicMaterial material = effective(cell.material, section);
     batch.lambda[lane]               = material.lambda;
     batch.mu[lane]                   = material.mu;
     batch.density[lane]              = material.density;

@@ -1,6 +1,7 @@
 #include <supple/observe/probes.h>
 
 #include <supple/base/error.h>
+#include <supple/input/entries.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -12,27 +13,28 @@ namespace Supple
 {
   using namespace dealii;
 
-  Probes::Probes(const Body &body, const Parameters &parameters)
+  Probes::Probes(const Body &body,
+                 const ProbeParameters &parameters,
+                 const Motions &motions,
+                 const ParameterFile &scene)
     : body(body)
   {
-    const ProbeParameters &wanted = parameters.probes;
+    for (unsigned int m = 0; m < motions.size(); ++m)
+      if (!motions[m].of.empty())
+        add_motion(motions[m].of, m, scene);
 
-    for (unsigned int m = 0; m < parameters.motions.size(); ++m)
-      if (!parameters.motions[m].of.empty())
-        add_motion(parameters.motions[m].of, m, parameters);
-
-    const std::string points = parameters.origin("Probes/Points");
-    for (const auto &[name, text] : named_list(wanted.points, points))
+    const std::string points = scene.origin("Probes/Points");
+    for (const auto &[name, text] : named_list(parameters.points, points))
       add_point(name, text, points);
 
-    const std::string boundaries = parameters.origin("Probes/Boundaries");
-    for (const auto &[name, text] : named_list(wanted.boundaries, boundaries))
+    const std::string boundaries = scene.origin("Probes/Boundaries");
+    for (const auto &[name, text] : named_list(parameters.boundaries, boundaries))
       add_nodes(name,
                 "boundary " + text,
                 body.boundary_nodes(boundary_id(text, boundaries), boundaries));
 
-    const std::string regions = parameters.origin("Probes/Regions");
-    for (const auto &[name, text] : named_list(wanted.regions, regions))
+    const std::string regions = scene.origin("Probes/Regions");
+    for (const auto &[name, text] : named_list(parameters.regions, regions))
       add_nodes(name, "region " + text, body.region_nodes(text, regions));
 
     for (const Probe &probe : probes)
@@ -44,9 +46,9 @@ namespace Supple
 
 
   void
-  Probes::add_motion(const std::string &of, const unsigned int motion, const Parameters &parameters)
+  Probes::add_motion(const std::string &of, const unsigned int motion, const ParameterFile &scene)
   {
-    const std::string origin = parameters.origin(Parameters::motion_section(motion) + "/Of");
+    const std::string origin = scene.origin(motion_section(motion) + "/Of");
     const std::string name   = "motion" + (motion == 0 ? "" : std::to_string(motion + 1));
     const std::string text   = Utilities::trim(of);
     const std::string point  = text.rfind("nearest to ", 0) == 0 ? text.substr(11) : "";

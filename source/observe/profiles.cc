@@ -1,6 +1,7 @@
 #include <supple/observe/profiles.h>
 
 #include <supple/base/error.h>
+#include <supple/input/entries.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -13,13 +14,15 @@ namespace Supple
 {
   using namespace dealii;
 
-  Profiles::Profiles(const Body &body, const Parameters &parameters)
+  Profiles::Profiles(const Body &body,
+                     const ProbeParameters &parameters,
+                     const ParameterFile &scene)
     : body(body)
-    , center(parameters.probes.profile_center)
-    , every(parameters.probes.profile_every)
+    , center(parameters.profile_center)
+    , every(parameters.profile_every)
   {
-    const std::string origin = parameters.origin("Probes/Profiles");
-    for (const auto &[name, text] : named_list(parameters.probes.profiles, origin))
+    const std::string origin = scene.origin("Probes/Profiles");
+    for (const auto &[name, text] : named_list(parameters.profiles, origin))
       {
         const auto on_boundary = body.boundary_nodes(boundary_id(text, origin), origin);
         profiles.push_back({name, {}, 0, nullptr});

@@ -65,9 +65,15 @@ namespace Supple
   } // namespace
 
 
-  Checkpoint::Checkpoint(const Body &body, const Parameters &parameters, const std::string &folder)
+  Checkpoint::Checkpoint(const Body &body,
+                         const CheckpointParameters &wanted,
+                         const std::string &scene,
+                         const bool dynamic,
+                         const std::string &folder)
     : body(body)
-    , parameters(parameters)
+    , wanted(wanted)
+    , scene(scene)
+    , dynamic(dynamic)
     , file(folder + "/checkpoint.cbor")
     , previous_file(folder + "/checkpoint.previous.cbor")
     , last_time(std::chrono::steady_clock::now())
@@ -78,7 +84,6 @@ namespace Supple
   bool
   Checkpoint::due(const unsigned int step) const
   {
-    const CheckpointParameters &wanted = parameters.checkpoint;
     if (wanted.every > 0 && step - last_step >= wanted.every)
       return true;
     if (wanted.minutes == 0.)
@@ -92,11 +97,9 @@ namespace Supple
   std::string
   Checkpoint::identity() const
   {
-    std::ostringstream used, kept;
-    parameters.print(used);
-    std::istringstream lines(used.str());
+    std::ostringstream kept;
+    std::istringstream lines(scene);
     std::string line, section;
-    const bool dynamic = parameters.time.problem == TimeParameters::Problem::dynamic;
     while (std::getline(lines, line))
       {
         if (line.rfind("subsection ", 0) == 0)

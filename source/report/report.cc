@@ -165,8 +165,6 @@ namespace Supple
                const std::string &summary,
                const Film *film)
   {
-    std::ostringstream used;
-    parameters.print(used);
     Json data = {
       {"kind", "run"},
       {"name", full_name(parameters)},
@@ -174,7 +172,7 @@ namespace Supple
       {"up", upward(parameters)},
       {"summary", Json::parse(summary)},
       {"tables", tables_of(folder)},
-      {"parameters", used.str()},
+      {"parameters", parameters.as_used},
     };
     std::vector<unsigned char> surface;
     if (film)

@@ -5,6 +5,7 @@
 #include <supple/report/report.h>
 #include <supple/run/simulation.h>
 #include <supple/run/summary.h>
+#include <supple/scene/read_scene.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/physics/transformations.h>
@@ -32,17 +33,26 @@ namespace Supple
     , writes_frames(!folder.empty() && parameters.output.frames != OutputParameters::Frames::none)
     , writes_report(parameters.output.report && (writes_history || writes_frames))
     , start(std::chrono::steady_clock::now())
-    , mesh(parameters, communicator)
-    , body(mesh, parameters)
-    , constraints(body, parameters)
-    , loads(body, parameters)
-    , probes(body, parameters)
-    , profiles(body, parameters)
-    , implicit_operator(body, constraints, parameters, effort)
-    , solver(LinearSolver::create(implicit_operator, parameters, effort))
+    , mesh(make_mesh(parameters, communicator))
+    , body(mesh,
+           parameters.material,
+           parameters.corotation,
+           parameters.solver.threads,
+           parameters.file)
+    , constraints(body, parameters.constraints, parameters.motions, parameters.file)
+    , loads(body, parameters.loads, parameters.file)
+    , probes(body, parameters.probes, parameters.motions, parameters.file)
+    , profiles(body, parameters.probes, parameters.file)
+    , implicit_operator(body,
+                        constraints,
+                        parameters.damping,
+                        parameters.corotation,
+                        !stationary,
+                        effort)
+    , solver(LinearSolver::create(implicit_operator, parameters.solver, parameters.file, effort))
     , diagnostics(body, loads, stationary)
     , progress(talks, Utilities::MPI::n_mpi_processes(communicator) > 1)
-    , checkpoint(body, parameters, folder)
+    , checkpoint(body, parameters.checkpoint, parameters.as_used, !stationary, folder)
   {
     const std::string free_pieces = constraints.free_pieces_in_words();
     if (stationary && !free_pieces.empty())
@@ -76,7 +86,16 @@ namespace Supple
   Model
   Simulation::model()
   {
-    return {body, constraints, loads, implicit_operator, *solver, parameters, effort};
+    return {body,
+            constraints,
+            loads,
+            implicit_operator,
+            *solver,
+            parameters.time,
+            parameters.damping,
+            parameters.material,
+            parameters.file,
+            effort};
   }
 
 
@@ -163,9 +182,7 @@ namespace Supple
         clear_results();
       if (!resumed || (frames && frames->n_written() == 0))
         clear_frames();
-      std::ostringstream used;
-      parameters.print(used);
-      write_whole_file(folder + "/parameters.prm", used.str());
+      write_whole_file(folder + "/parameters.prm", parameters.as_used);
       if (writes_history)
         open_tables();
     });
@@ -563,6 +580,6 @@ namespace Supple
     body.initialize(rest);
     summary.distance_from_rest  = largest_vertex_distance(state.block(0), rest);
     summary.distance_from_shape = distance_from_shape(body, state.block(0));
-    return summary.to_json(model());
+    return summary.to_json(parameters, model());
   }
 } // namespace Supple

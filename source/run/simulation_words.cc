@@ -156,7 +156,7 @@ namespace Supple
              << ". Material/Volumetric locking cure = patches helps.";
         list.push_back(text.str());
       }
-    if (!stationary && parameters.time.method == TimeParameters::Method::ida &&
+    if (!stationary && parameters.time.method == TimeMethod::ida &&
         parameters.time.maximum_order > 2)
       list.push_back(
         "Backward differentiation of an order above 2 (Time/Maximum order) is not "

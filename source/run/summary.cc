@@ -21,7 +21,7 @@ namespace Supple
     {
       const Effort &effort = model.effort;
       return {{"mass_matrix", model.implicit_operator.has_mass()},
-              {"damping_matrix", model.parameters.damping.any()},
+              {"damping_matrix", model.damping.any()},
               {"rotations_computed", effort.rotations_computed},
               {"assemblies", effort.assemblies},
               {"cells_warped", effort.cells_warped},
@@ -78,13 +78,13 @@ namespace Supple
 
 
     Json
-    solutions(const Model &model)
+    solutions(const Model &model, const double tolerance)
     {
       const LinearSolver &solver = model.solver;
       const Effort &effort       = model.effort;
       Json json                  = {{"name", solver.name()},
                                     {"reason", solver.reason},
-                                    {"tolerance", model.parameters.solver.tolerance},
+                                    {"tolerance", tolerance},
                                     {"max_relative_residual", effort.max_relative_residual},
                                     {"solves", effort.solves},
                                     {"iterations", effort.linear_iterations},
@@ -144,11 +144,11 @@ namespace Supple
 
 
   std::string
-  Summary::to_json(const Model &model) const
+  Summary::to_json(const Parameters &parameters, const Model &model) const
   {
     const Effort &effort = model.effort;
     Json json;
-    json["scene"]    = model.parameters.scene_name;
+    json["scene"]    = parameters.scene_name;
     json["status"]   = status;
     json["warnings"] = warnings;
 
@@ -166,7 +166,7 @@ namespace Supple
       json["stable_step"] = {{"step", stable_step->step},
                              {"frequency", stable_step->frequency},
                              {"limit", stable_step->limit}};
-    json["solver"] = solutions(model);
+    json["solver"] = solutions(model, parameters.solver.tolerance);
 
     json["steps"]            = steps;
     json["rejected_steps"]   = effort.rejected_steps;

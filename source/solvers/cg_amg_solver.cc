@@ -161,7 +161,7 @@ namespace Supple
         , p(A.body.n_local)
         , q(A.body.n_local)
         , guesses(!A.body.patches)
-        , previous(A.body)
+        , previous(A.body.partitioner)
       {
       }
 

@@ -10,19 +10,21 @@ namespace Supple
 {
   ImplicitOperator::ImplicitOperator(const Body &body,
                                      const Constraints &constraints,
-                                     const Parameters &parameters,
+                                     const DampingParameters &damping,
+                                     const CorotationParameters &corotation,
+                                     const bool dynamic,
                                      Effort &effort)
     : body(body)
     , constraints(constraints)
-    , damping(parameters.damping)
+    , damping(damping)
     , effort(effort)
-    , warp_tolerance(parameters.corotation.warp_tolerance * M_PI / 180.)
+    , warp_tolerance(corotation.warp_tolerance * M_PI / 180.)
     , pattern(make_pattern())
     , A(pattern)
   {
     body.cells->connect(pattern);
     find_masked_entries();
-    if (parameters.time.problem == TimeParameters::Problem::dynamic)
+    if (dynamic)
       {
         M = std::make_unique<SymmetricScalarMatrix>(pattern);
         body.cells->add_mass(*M);

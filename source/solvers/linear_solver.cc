@@ -8,7 +8,7 @@
 
 namespace Supple
 {
-  using Method = SolverParameters::Method;
+  using Method = SolverMethod;
 
   namespace
   {
@@ -157,12 +157,13 @@ namespace Supple
 
 
   std::unique_ptr<LinearSolver>
-  LinearSolver::create(const ImplicitOperator &A, const Parameters &scene, Effort &effort)
-
+  LinearSolver::create(const ImplicitOperator &A,
+                       const SolverParameters &parameters,
+                       const ParameterFile &scene,
+                       Effort &effort)
   {
-    const SolverParameters &parameters = scene.solver;
-    std::string reason                 = "asked for";
-    Method method                      = parameters.method;
+    std::string reason = "asked for";
+    Method method      = parameters.method;
     if (method == Method::automatic)
       method = choose(A, reason);
 

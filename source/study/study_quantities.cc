@@ -2,6 +2,7 @@
 
 #include <supple/base/error.h>
 #include <supple/base/text.h>
+#include <supple/input/entries.h>
 
 #include <deal.II/base/utilities.h>
 

@@ -1,6 +1,7 @@
 #include <supple/study/study_record.h>
 
 #include <supple/base/error.h>
+#include <supple/input/entries.h>
 
 #include <deal.II/base/mpi.h>
 

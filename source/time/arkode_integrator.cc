@@ -11,7 +11,7 @@
 
 namespace Supple
 {
-  using Method = TimeParameters::Method;
+  using Method = TimeMethod;
 
   namespace
   {
@@ -82,9 +82,7 @@ namespace Supple
 
 
   ArkodeIntegrator::ArkodeIntegrator(const Model &model)
-    : DynamicIntegrator(model,
-                        rotations_of(model.parameters.time.method),
-                        held_velocity_of(model.parameters.time.method))
+    : DynamicIntegrator(model, rotations_of(model.time.method), held_velocity_of(model.time.method))
     , mass_system(context)
     , error(equation.n_unknowns(), model.body.mesh.communicator, context)
     , last_size(settings.step)
@@ -192,7 +190,7 @@ namespace Supple
   {
     if (adaptive || !stable || settings.step <= stable->step)
       return;
-    throw InputError(model.parameters.origin("Time/Step") + ": " + settings.method_name() +
+    throw InputError(model.scene.origin("Time/Step") + ": " + settings.method_name() +
                      " is stable up to a step of " + stable->description() +
                      ". Take a shorter step, variable steps or an implicit method.");
   }

@@ -11,8 +11,8 @@ namespace Supple
   DynamicIntegrator::DynamicIntegrator(const Model &model,
                                        const EquationOfMotion::Rotations rotations,
                                        const EquationOfMotion::HeldVelocity held_velocity)
-    : TimeIntegrator(model, model.parameters.time.end())
-    , settings(model.parameters.time)
+    : TimeIntegrator(model, model.time.end())
+    , settings(model.time)
     , equation(model, rotations, held_velocity)
     , backward_euler(held_velocity == EquationOfMotion::HeldVelocity::difference)
     , adaptive(settings.has_variable_steps())
@@ -39,7 +39,7 @@ namespace Supple
     for (const auto &[id, n_cells] : body.mesh.materials)
       {
         const IsotropicMaterial &material = body.material(id);
-        const double vertex_mass          = model.parameters.material.vertex_mass;
+        const double vertex_mass          = model.material.vertex_mass;
         const double density              = vertex_mass > 0.
                                               ? body.mesh.n_vertices * vertex_mass / body.mesh.volume
                                               : material.density;
@@ -181,7 +181,7 @@ namespace Supple
   {
     Effort uncounted; // these forces are for the eye alone
     model.body.internal_force(imbalance, state.block(0), uncounted);
-    if (model.parameters.damping.any())
+    if (model.damping.any())
       {
         equation.full_damping_product(work_space, state.block(1));
         imbalance += work_space;

@@ -34,8 +34,7 @@ namespace Supple
     , rotations(rotations)
     , tangent(Tangent::frozen)
     , held_velocity(held_velocity)
-    , inertia_couples(!model.parameters.material.lumped &&
-                      model.parameters.material.vertex_mass == 0.)
+    , inertia_couples(!model.material.lumped && model.material.vertex_mass == 0.)
     , mass_solver(model.implicit_operator)
   {
     for (Vector *vector :
@@ -57,11 +56,9 @@ namespace Supple
     rotations    = new_rotations;
     tangent      = Tangent::frozen;
     if (rotations == Rotations::following && model.body.rotation == RotationMethod::polar &&
-        model.parameters.time.tangent != Choice::frozen)
-      tangent =
-        model.parameters.time.tangent == Choice::definite ? Tangent::definite : Tangent::consistent;
-    gives_way =
-      model.parameters.time.tangent == Choice::automatic && tangent == Tangent::consistent;
+        model.time.tangent != Choice::frozen)
+      tangent = model.time.tangent == Choice::definite ? Tangent::definite : Tangent::consistent;
+    gives_way = model.time.tangent == Choice::automatic && tangent == Tangent::consistent;
   }
 
 
@@ -140,7 +137,7 @@ namespace Supple
     if (held_velocity == HeldVelocity::derivative)
       {
         // Of what lies within the step: a motion may have kinks where steps meet.
-        const double interval = model.parameters.time.derivative_interval();
+        const double interval = model.time.derivative_interval();
         const bool at_start   = time - step_start < 4. * interval;
         model.constraints.set_velocity(held, time, at_start ? interval : -interval);
       }
@@ -179,7 +176,7 @@ namespace Supple
   void
   EquationOfMotion::evaluate(double *f, const double time, const double *y)
   {
-    const DampingParameters &damping = model.parameters.damping;
+    const DampingParameters &damping = model.damping;
     if (time != stage_time)
       stage_solutions = 0;
     stage_time = time;
@@ -352,7 +349,7 @@ namespace Supple
   void
   EquationOfMotion::full_damping_product(Vector &y, const Vector &x)
   {
-    const DampingParameters &damping = model.parameters.damping;
+    const DampingParameters &damping = model.damping;
     const GhostValues values(x);
     sum_into(y, [&](double *sum) { model.body.add_stiffness_product(values.data(), sum); });
     y *= damping.stiffness_factor;

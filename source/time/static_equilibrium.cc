@@ -102,7 +102,7 @@ namespace Supple
   {
     Vector &u                = state.block(0);
     const Vector start       = u;
-    const double load_factor = double(n_done + 1) / model.parameters.time.n_steps;
+    const double load_factor = double(n_done + 1) / model.time.n_steps;
     StepReport report;
     report.time = load_factor;
     report.dt   = load_factor - time;
@@ -146,7 +146,7 @@ namespace Supple
   StaticEquilibrium::find_correction(const Vector &u)
   {
     using Choice        = TimeParameters::TangentChoice;
-    const Choice choice = model.parameters.time.tangent;
+    const Choice choice = model.time.tangent;
     if (model.body.rotation != RotationMethod::polar || choice == Choice::frozen)
       {
         assemble(u, Tangent::frozen);
@@ -173,7 +173,7 @@ namespace Supple
   void
   StaticEquilibrium::find_equilibrium(Vector &u, const double load_factor, StepReport &report)
   {
-    const TimeParameters &settings = model.parameters.time;
+    const TimeParameters &settings = model.time;
     const bool linear              = model.forces_are_linear();
 
     if (model.constraints.move())

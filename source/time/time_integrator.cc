@@ -28,9 +28,9 @@ namespace Supple
   TimeIntegrator::create(const Model &model, const Vector &displacement)
   {
     model.body.update_rotations(displacement, model.effort);
-    if (model.parameters.time.problem == TimeParameters::Problem::stationary)
+    if (model.time.problem == TimeParameters::Problem::stationary)
       return std::make_unique<StaticEquilibrium>(model);
-    if (model.parameters.time.method == TimeParameters::Method::ida)
+    if (model.time.method == TimeMethod::ida)
       return std::make_unique<IdaIntegrator>(model);
     return std::make_unique<ArkodeIntegrator>(model);
   }

@@ -2,6 +2,8 @@
 #define supple_loads_h
 
 #include <supple/base/expression.h>
+#include <supple/forces/load_parameters.h>
+#include <supple/input/parameter_file.h>
 #include <supple/mechanics/body.h>
 
 namespace Supple
@@ -11,8 +13,8 @@ namespace Supple
   class Loads
   {
   public:
-    /** @throws InputError */
-    Loads(const Body &body, const Parameters &parameters);
+    /** @throws InputError; @p scene knows where the entries were set */
+    Loads(const Body &body, const LoadParameters &parameters, const ParameterFile &scene);
 
     /**
      * The load vector [N]; held entries are not set to zero. Valid until the next call.

@@ -3,6 +3,7 @@
 
 #include <supple/base/effort.h>
 #include <supple/mechanics/cells.h>
+#include <supple/mechanics/material_parameters.h>
 #include <supple/mechanics/volumetric_patches.h>
 #include <supple/mesh/mesh.h>
 
@@ -21,7 +22,16 @@ namespace Supple
   class Body
   {
   public:
-    Body(const Mesh &mesh, const Parameters &parameters);
+    /**
+     * @param most_threads of this process; small bodies take fewer
+     * @param scene        knows where the entries were set, for messages
+     * @throws InputError
+     */
+    Body(const Mesh &mesh,
+         const MaterialParameters &material,
+         const CorotationParameters &corotation,
+         unsigned int most_threads,
+         const ParameterFile &scene);
 
     const Mesh &mesh;
     const RotationMethod rotation;
@@ -145,7 +155,7 @@ namespace Supple
     std::map<unsigned int, IsotropicMaterial> materials;
 
     void
-    collect_cells(const Parameters &parameters);
+    collect_cells(const MaterialParameters &parameters, const ParameterFile &scene);
   };
 } // namespace Supple
 

@@ -3,6 +3,7 @@
 
 #include <supple/base/csv_file.h>
 #include <supple/mechanics/body.h>
+#include <supple/observe/probe_parameters.h>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -17,8 +18,9 @@ namespace Supple
   class Profiles
   {
   public:
-    /** @throws InputError if a profile is written wrongly or the body has no such boundary */
-    Profiles(const Body &body, const Parameters &parameters);
+    /** @throws InputError if a profile is written wrongly or the body has no such boundary; @p
+     * scene knows where the entries were set */
+    Profiles(const Body &body, const ProbeParameters &parameters, const ParameterFile &scene);
 
     bool
     empty() const

@@ -3,6 +3,7 @@
 
 #include <supple/observe/diagnostics.h>
 #include <supple/output/film.h>
+#include <supple/output/output_parameters.h>
 
 #include <memory>
 #include <string>

@@ -33,7 +33,7 @@ namespace Supple
       0.; ///< the same, from the body at rest that is shifted and turned [m]
 
     std::string
-    to_json(const Model &model) const;
+    to_json(const Parameters &parameters, const Model &model) const;
   };
 } // namespace Supple
 

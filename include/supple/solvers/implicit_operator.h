@@ -22,9 +22,12 @@ namespace Supple
   class ImplicitOperator
   {
   public:
+    /** @param dynamic the problem has masses */
     ImplicitOperator(const Body &body,
                      const Constraints &constraints,
-                     const Parameters &parameters,
+                     const DampingParameters &damping,
+                     const CorotationParameters &corotation,
+                     bool dynamic,
                      Effort &effort);
 
     /** A = M + gamma D + gamma^2 K' with the rotations the body has now, or had less than the warp

@@ -5,6 +5,7 @@
 #include <supple/solvers/implicit_operator.h>
 #include <supple/solvers/linear_solver.h>
 #include <supple/time/stable_step.h>
+#include <supple/time/time_parameters.h>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -43,7 +44,10 @@ namespace Supple
     const Loads &loads;
     ImplicitOperator &implicit_operator;
     LinearSolver &solver;
-    const Parameters &parameters;
+    const TimeParameters &time;
+    const DampingParameters &damping;
+    const MaterialParameters &material;
+    const ParameterFile &scene; ///< knows where the entries were set, for messages
     Effort &effort;
 
     /** Whether the operator stays and the loads follow no displacement. */

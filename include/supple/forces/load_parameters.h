@@ -1,0 +1,30 @@
+#ifndef supple_load_parameters_h
+#define supple_load_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/tensor.h>
+
+#include <string>
+#include <vector>
+
+namespace Supple
+{
+  /** Subsection Loads: the forces on the body. */
+  struct LoadParameters
+  {
+    dealii::Tensor<1, 3> gravity;
+    std::string body_force     = "0; 0; 0"; ///< [N/m^3]
+    std::string nodal_force    = "0; 0; 0"; ///< [N]
+    std::string nodal_force_on = "all";
+    std::string traction       = "0; 0; 0"; ///< [Pa]
+    std::vector<unsigned int> traction_on;
+    std::string pressure = "0"; ///< [Pa]
+    std::vector<unsigned int> pressure_on;
+    bool pressure_follows = true;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+  };
+} // namespace Supple
+
+#endif
