@@ -166,9 +166,8 @@ namespace Supple
     Parameters parameters;
     dealii::ParameterHandler prm;
     parameters.declare(prm);
-    parameters.file         = ParameterFile(file);
-    parameters.scene_name   = parameters.file.name();
-    parameters.scene_folder = parameters.file.folder();
+    parameters.file       = ParameterFile(file);
+    parameters.scene_name = parameters.file.name();
     parameters.file.parse(prm, overrides);
 
     std::ostringstream used;

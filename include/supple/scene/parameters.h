@@ -34,9 +34,7 @@ namespace Supple
 
     ParameterFile file;     ///< where each entry was set
     std::string scene_name; ///< of the file, without folder and ending
-    std::string
-      scene_folder;      ///< of the file; other files that the scene names are looked for there
-    std::string as_used; ///< each entry with its value, as the text of a scene file
+    std::string as_used;    ///< each entry with its value, as the text of a scene file
 
     void
     declare(dealii::ParameterHandler &prm);
