@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds the documentation into build/doc, to be opened at build/doc/index.html: the parameter reference anew from the
-# program, the picture of the folders, all Markdown pages, and the code by Doxygen. A warning of Doxygen is an error. SUPPLE=path takes another executable.
+# program, the picture of the folders from the code, all Markdown pages, and the code by Doxygen. A warning of Doxygen is an
+# error. SUPPLE=path takes another executable.
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 install_missing docs

@@ -10,24 +10,29 @@ cd "$root/tests"
 names=("$@")
 if [ $# -eq 0 ]; then names=("*"); fi
 for name in "${names[@]}"; do
-  # On several processes, NAME.mpirun=N.output, the same is expected.
-  readarray -t outputs < <(find . -path "*/$name.output" ! -name "*.mpirun=*" -printf '%P\n' | sort)
-  if [ ${#outputs[@]} -eq 0 ]; then
-    echo "There is no $name.output in tests/" >&2
+  readarray -t files < <(find . \( -path "*/$name.prm" -o -path "*/$name.cc" \) ! -path "./driver/*" -printf '%P\n' | sort)
+  if [ ${#files[@]} -eq 0 ]; then
+    echo "There is no $name.prm and no $name.cc in the folders of tests/" >&2
     exit 1
   fi
-  for output in "${outputs[@]}"; do
-    test=${output%.output}
+  for file in "${files[@]}"; do
+    test=${file%.*}
+    # CMake finds a test by its output.
+    if [ ! -f "$test.output" ]; then
+      touch "$test.output"
+      cmake "$root/build" > /dev/null
+    fi
     if [ -f "$test.cc" ]; then
       ninja -C "$root/build" "${test/\//.}.release" > /dev/null
-      "$root/build/tests/$test.release/$(basename "$test").release" > "$output"
+      "$root/build/tests/$test.release/$(basename "$test").release" > "$test.output"
     else
       folder=$(mktemp -d)
-      (cd "$folder" && "$root/build/tests/supple_physics" "$root/tests/$test.prm" > "$root/tests/$output")
+      (cd "$folder" && "$root/build/tests/supple_physics" "$root/tests/$file" > "$root/tests/$test.output")
       rm -r "$folder"
     fi
+    # On several processes the same is expected.
     for other in "$test".mpirun=*.output; do
-      if [ -f "$other" ]; then cp "$output" "$other"; fi
+      if [ -f "$other" ]; then cp "$test.output" "$other"; fi
     done
   done
 done
