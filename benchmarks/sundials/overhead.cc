@@ -4,7 +4,7 @@
 //
 //   overhead SCENE.prm [repetitions [integrator | loop]]
 
-#include <supple/time/time_integrator.h>
+#include <supple/time/create_integrator.h>
 
 #include <algorithm>
 #include <cmath>
@@ -121,7 +121,7 @@ namespace
 
     explicit ByIntegrator(const std::string &scene)
       : Run(scene)
-      , integrator(TimeIntegrator::create(
+      , integrator(create_integrator(
           {body, constraints, loads, implicit_operator, *solver, parameters, effort},
           state.block(0)))
     {

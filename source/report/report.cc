@@ -162,7 +162,7 @@ namespace Supple
   void
   write_report(const std::string &folder,
                const Parameters &parameters,
-               const std::string &summary,
+               const Json &summary,
                const Film *film)
   {
     std::ostringstream used;
@@ -172,7 +172,7 @@ namespace Supple
       {"name", full_name(parameters)},
       {"static", parameters.time.problem == TimeParameters::Problem::stationary},
       {"up", upward(parameters)},
-      {"summary", Json::parse(summary)},
+      {"summary", summary},
       {"tables", tables_of(folder)},
       {"parameters", used.str()},
     };

@@ -4,7 +4,6 @@
 #include <supple/base/interrupt.h>
 #include <supple/report/report.h>
 #include <supple/run/simulation.h>
-#include <supple/run/summary.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/physics/transformations.h>
@@ -52,7 +51,7 @@ namespace Supple
                        ", so that the stiffness is singular. Hold a boundary or a region "
                        "(subsection Constraints), or make the problem dynamic.");
     create_initial_state();
-    integrator         = TimeIntegrator::create(model(), state.block(0));
+    integrator         = create_integrator(model(), state.block(0));
     start_displacement = state.block(0);
     if (parameters.time.estimate_error)
       create_step_doubling();
@@ -517,12 +516,13 @@ namespace Supple
     run_seconds = seconds_of_run();
     if (step_doubling)
       run_seconds -= step_doubling->seconds;
-    summary_text = summarize(status);
+    last_summary.emplace(summarize(status));
     if (!folder.empty() && Utilities::MPI::this_mpi_process(communicator) == 0)
       {
-        write_whole_file(folder + "/summary.json", summary_text);
+        const nlohmann::ordered_json json = last_summary->to_json();
+        write_whole_file(folder + "/summary.json", json.dump(2) + "\n");
         if (writes_report)
-          write_page();
+          write_page(json);
       }
     if (talks && status == "done")
       print_result();
@@ -530,19 +530,19 @@ namespace Supple
 
 
   void
-  Simulation::write_page() const
+  Simulation::write_page(const nlohmann::ordered_json &summary) const
   {
     const Film *const film = frames ? frames->surface_film() : nullptr;
-    write_report(folder, parameters, summary_text, film);
+    write_report(folder, parameters, summary, film);
     if (film && !parameters.checkpoint.wanted())
       film->remove(); // no run will go on from here
   }
 
 
-  std::string
+  Summary
   Simulation::summarize(const std::string &status)
   {
-    Summary summary;
+    Summary summary(model(), state.block(0));
     summary.status         = status;
     summary.warnings       = warnings();
     summary.integrator     = integrator->name();
@@ -559,10 +559,6 @@ namespace Supple
     summary.observed       = observed;
     summary.last           = now;
     summary.extremes       = diagnostics.extremes();
-    Vector rest;
-    body.initialize(rest);
-    summary.distance_from_rest  = largest_vertex_distance(state.block(0), rest);
-    summary.distance_from_shape = distance_from_shape(body, state.block(0));
-    return summary.to_json(model());
+    return summary;
   }
 } // namespace Supple

@@ -1,7 +1,7 @@
 #ifndef supple_frames_h
 #define supple_frames_h
 
-#include <supple/observe/diagnostics.h>
+#include <supple/observe/measurement.h>
 #include <supple/output/film.h>
 
 #include <memory>

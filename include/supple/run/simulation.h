@@ -9,13 +9,15 @@
 #include <supple/output/checkpoint.h>
 #include <supple/output/frames.h>
 #include <supple/run/step_doubling.h>
-#include <supple/time/time_integrator.h>
+#include <supple/run/summary.h>
+#include <supple/time/create_integrator.h>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace Supple
@@ -89,11 +91,11 @@ namespace Supple
       return probes.column_names();
     }
 
-    /** What stands in summary.json after the run; before that, nothing. */
-    const std::string &
+    /** What summary.json tells; to be called after the run. */
+    const Summary &
     summary() const
     {
-      return summary_text;
+      return *last_summary;
     }
 
     /** Says what would be run, as a table, with what was found in the mesh; runs nothing. */
@@ -216,12 +218,12 @@ namespace Supple
     void
     finish(const std::string &status);
 
-    std::string
+    Summary
     summarize(const std::string &status);
 
     /** On the first process. */
     void
-    write_page() const;
+    write_page(const nlohmann::ordered_json &summary) const;
 
     /** What the run has to say on the screen at its end. */
     void
@@ -271,7 +273,7 @@ namespace Supple
     std::unique_ptr<StepDoubling> step_doubling;
     Checkpoint checkpoint;
 
-    std::string summary_text;
+    std::optional<Summary> last_summary;
     std::vector<std::string> warnings_told; ///< when the run began
     unsigned int step         = 0;
     bool resumed              = false;

@@ -33,10 +33,6 @@ namespace Supple
     double last    = 0.; ///< of the state that was looked at last [J]
     double largest = 0.; ///< size of the energies so far [J]
   };
-
-
-  /** What counts as a rise beside the largest energy: more than round-off and inexact solutions. */
-  constexpr double energy_accuracy = 1e-9;
 } // namespace Supple
 
 #endif
