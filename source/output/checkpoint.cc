@@ -68,10 +68,17 @@ namespace Supple
   Checkpoint::Checkpoint(const Body &body, const Parameters &parameters, const std::string &folder)
     : body(body)
     , parameters(parameters)
-    , file(folder + "/checkpoint.cbor")
-    , previous_file(folder + "/checkpoint.previous.cbor")
+    , file(folder + "/" + files()[0])
+    , previous_file(folder + "/" + files()[1])
     , last_time(std::chrono::steady_clock::now())
   {
+  }
+
+
+  std::vector<std::string>
+  Checkpoint::files()
+  {
+    return {"checkpoint.cbor", "checkpoint.previous.cbor"};
   }
 
 

@@ -28,6 +28,13 @@ namespace Supple
   }
 
 
+  std::vector<std::string>
+  Frames::files()
+  {
+    return {"solution.pvd", "solution/frame_*", Film::file_name()};
+  }
+
+
   nlohmann::json
   Frames::save() const
   {
@@ -100,16 +107,33 @@ namespace Supple
 
 
   bool
-  Frames::can_hold(const State &state) const
+  Frames::is_written(const unsigned int step) const
   {
+    return !records.empty() && step == last.step;
+  }
+
+
+  const CellFields &
+  Frames::fields(const State &state, const unsigned int step)
+  {
+    if (!cells || step_of_cells != step)
+      cells.emplace(body, state.block(0));
+    step_of_cells = step;
+    return *cells;
+  }
+
+
+  bool
+  Frames::can_hold(const State &state, const unsigned int step)
+  {
+    if (is_written(step))
+      return true;
     const auto finite = [](const float value) { return std::isfinite(value); };
     for (unsigned int b = 0; b < state.n_blocks(); ++b)
       state.block(b).update_ghost_values(); // the cells ask for them
-    bool here = true;
+    bool here = fields(state, step).finite();
     for (unsigned int b = 0; b < state.n_blocks(); ++b)
       here = here && std::all_of(state.block(b).begin(), state.block(b).end(), finite);
-    for (const auto &[name, values] : cell_fields(state))
-      here = here && std::all_of(values.begin(), values.end(), finite);
     for (unsigned int b = 0; b < state.n_blocks(); ++b)
       state.block(b).zero_out_ghost_values();
     return Utilities::MPI::min(here ? 1 : 0, body.mesh.communicator) == 1;
@@ -119,10 +143,10 @@ namespace Supple
   void
   Frames::write(const State &state, const Measurement &now)
   {
-    if (!records.empty() && now.step == last.step)
+    if (is_written(now.step))
       return;
     const std::string name = "frame_" + Utilities::int_to_string(n_written(), 4);
-    write_vtu(state, now, name);
+    draw_state(state, now, name);
 
     const bool first    = records.empty();
     const bool parallel = Utilities::MPI::n_mpi_processes(body.mesh.communicator) > 1;
@@ -145,7 +169,7 @@ namespace Supple
 
 
   void
-  Frames::write_vtu(const State &state, const Measurement &now, const std::string &name)
+  Frames::draw_state(const State &state, const Measurement &now, const std::string &name)
   {
     // Drawing works with whole vectors: ghost values stay valid until it is done.
     for (unsigned int b = 0; b < state.n_blocks(); ++b)
@@ -158,36 +182,18 @@ namespace Supple
           body.positions[node][i] + state.block(0).local_element(3 * node + i);
     deformed.update_ghost_values();
 
-    Drawing drawing{now.time, now.step, deformed, {}, cell_fields(state)};
-    const char *const names[] = {"displacement", "velocity"};
-    for (unsigned int b = 0; b < state.n_blocks(); ++b)
-      drawing.of_nodes.emplace_back(names[b], &state.block(b));
+    const Drawing drawing{now.time,
+                          now.step,
+                          deformed,
+                          state.block(0),
+                          state.n_blocks() > 1 ? &state.block(1) : nullptr,
+                          fields(state, now.step)};
     write_pieces(drawing, name);
     if (film)
       film->write(drawing);
+    cells.reset();
     for (unsigned int b = 0; b < state.n_blocks(); ++b)
       state.block(b).zero_out_ghost_values();
-  }
-
-
-  std::vector<std::pair<std::string, dealii::Vector<float>>>
-  Frames::cell_fields(const State &state) const
-  {
-    std::vector<std::pair<std::string, dealii::Vector<float>>> fields;
-    for (const char *name :
-         {"volume_ratio", "von_mises_stress", "rotation_angle", "material", "pressure"})
-      fields.emplace_back(name, dealii::Vector<float>(body.mesh.parts->n_cells));
-    const std::vector<CellState> states = body.states(state.block(0).begin());
-    for (std::size_t c = 0; c < states.size(); ++c)
-      {
-        const unsigned int cell = body.cell_index[c];
-        fields[0].second[cell]  = states[c].volume_ratio;
-        fields[1].second[cell]  = states[c].von_mises_stress;
-        fields[2].second[cell]  = states[c].rotation_angle;
-        fields[3].second[cell]  = body.cell_material[c];
-        fields[4].second[cell]  = states[c].pressure;
-      }
-    return fields;
   }
 
 

@@ -50,6 +50,20 @@ namespace Supple
   }
 
 
+  void
+  StepDoubling::begin(const Observation & /* now */, const bool /* resumed */)
+  {
+  }
+
+
+  bool
+  StepDoubling::after_step(const Observation &now)
+  {
+    error_now = follow(now.measurement.time, now.state);
+    return true;
+  }
+
+
   std::optional<double>
   StepDoubling::follow(const double time, const State &state)
   {

@@ -6,9 +6,45 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace Supple
 {
+  namespace
+  {
+    /** Keeps the wanted columns of a run. */
+    class Recorder : public Listener
+    {
+    public:
+      Recorder(const std::set<std::string> &wanted,
+               const std::vector<std::string> &probe_columns,
+               StudyRecord &record)
+      {
+        std::vector<std::string> names = Measurement::column_names();
+        n_history                      = names.size();
+        names.insert(names.end(), probe_columns.begin(), probe_columns.end());
+        for (std::size_t c = 0; c < names.size(); ++c)
+          if (wanted.count(names[c]) > 0 && record.columns.count(names[c]) == 0)
+            columns.emplace_back(c, &record.columns[names[c]]);
+      }
+
+      bool
+      after_step(const Observation &now) override
+      {
+        const std::vector<double> row = now.measurement.row();
+        for (const auto &[c, column] : columns)
+          column->push_back(c < n_history ? row[c] : now.probes[c - n_history]);
+        return true;
+      }
+
+    private:
+      std::size_t n_history; ///< columns of history.csv; those of probes.csv come after them
+      std::vector<std::pair<std::size_t, std::vector<double> *>> columns;
+    };
+  } // namespace
+
+
   StudyRunner::StudyRunner(const std::set<std::string> &columns, const MPI_Comm communicator)
     : wanted([&] {
       std::set<std::string> all = columns;
@@ -36,23 +72,10 @@ namespace Supple
     Simulation simulation(parameters, folder, true, communicator);
     StudyRecord record;
 
-    // Where each wanted column stands: in the history, or behind it in the row of the probes.
-    std::vector<std::string> names = Measurement::column_names();
-    const std::size_t n_history    = names.size();
-    for (const std::string &name : simulation.probe_columns())
-      names.push_back(name);
-    std::vector<std::pair<std::size_t, std::vector<double> *>> kept;
-    for (std::size_t c = 0; c < names.size(); ++c)
-      if (wanted.count(names[c]) > 0 && record.columns.count(names[c]) == 0)
-        kept.emplace_back(c, &record.columns[names[c]]);
-
+    Recorder recorder(wanted, simulation.probe_columns(), record);
     try
       {
-        simulation.run([&](const Simulation::Observation &now) {
-          const std::vector<double> row = now.measurement.row();
-          for (const auto &[c, column] : kept)
-            column->push_back(c < n_history ? row[c] : now.probes[c - n_history]);
-        });
+        simulation.run(&recorder);
       }
     catch (const InterruptedError &)
       {

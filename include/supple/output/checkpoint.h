@@ -8,6 +8,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace Supple
 {
@@ -21,6 +22,10 @@ namespace Supple
   {
   public:
     Checkpoint(const Body &body, const Parameters &parameters, const std::string &folder);
+
+    /** Their names in the folder. */
+    static std::vector<std::string>
+    files();
 
     /** Whether steps or time since the last one are enough. The same answer on all processes. */
     bool

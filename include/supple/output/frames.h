@@ -5,6 +5,7 @@
 #include <supple/output/film.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,13 +20,20 @@ namespace Supple
      * it, and if a report is wanted, the film that it shows */
     Frames(const Body &body, const OutputParameters &parameters, const std::string &folder);
 
+    /** The patterns of their names in the folder, those of the film included. */
+    static std::vector<std::string>
+    files();
+
     /** Whether something has happened that should be seen. */
     bool
     due(const State &state, const Measurement &now) const;
 
-    /** Whether a frame, whose numbers have 32 bits, can hold the state: none becomes infinite. */
+    /**
+     * Whether a frame, whose numbers have 32 bits, can hold the state: none becomes infinite. What
+     * was computed for that is kept for write() of the same step. Collective.
+     */
     bool
-    can_hold(const State &state) const;
+    can_hold(const State &state, unsigned int step);
 
     /** Writes the state, unless it was written already. The rotations must be those of the state.
      */
@@ -65,11 +73,16 @@ namespace Supple
     bool
     volume_has_changed(const Measurement &now) const;
 
-    void
-    write_vtu(const State &state, const Measurement &now, const std::string &name);
+    bool
+    is_written(unsigned int step) const;
 
-    std::vector<std::pair<std::string, dealii::Vector<float>>>
-    cell_fields(const State &state) const;
+    /** The fields of a state with valid ghost values; computed once for each step. */
+    const CellFields &
+    fields(const State &state, unsigned int step);
+
+    /** Writes the files of this frame. */
+    void
+    draw_state(const State &state, const Measurement &now, const std::string &name);
 
     void
     write_pieces(const Drawing &drawing, const std::string &name) const;
@@ -83,6 +96,8 @@ namespace Supple
     Vector last_displacement;
     double min_volume_ratio, max_volume_ratio; ///< of all frames
     bool inverted = false;                     ///< in any frame
+    std::optional<CellFields> cells;           ///< of a step that is not written yet
+    unsigned int step_of_cells = 0;
   };
 } // namespace Supple
 

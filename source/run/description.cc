@@ -1,13 +1,15 @@
-// What a simulation says on the screen, and of itself in its summary.
+#include <supple/run/description.h>
 
+#include <supple/base/progress.h>
 #include <supple/base/text.h>
-#include <supple/run/simulation.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <sstream>
 
 namespace Supple
@@ -36,22 +38,26 @@ namespace Supple
   } // namespace
 
 
-  std::string
-  Simulation::free_rigid_motions() const
+  Description::Description(const Problem &problem,
+                           const TimeIntegrator &integrator,
+                           const Probes &probes,
+                           const Diagnostics &diagnostics,
+                           const Course &course)
+    : problem(problem)
+    , integrator(integrator)
+    , probes(probes)
+    , diagnostics(diagnostics)
+    , course(course)
   {
-    if (constraints.n_rigid_motions == 1)
-      return "its one rigid motion, along its axis, is free";
-    return std::to_string(constraints.n_free_rigid_motions) + " of its " +
-           (constraints.n_rigid_motions == 6 ? "six" : "three") + " rigid motions are free";
   }
 
 
   std::string
-  Simulation::section_in_words() const
+  Description::section_in_words() const
   {
     std::ostringstream thickness;
-    thickness << mesh.section.thickness << " m thick, ";
-    switch (mesh.section.geometry)
+    thickness << problem.mesh.section.thickness << " m thick, ";
+    switch (problem.mesh.section.geometry)
       {
         case Geometry::plane_strain:
           return "plane strain, " + thickness.str();
@@ -66,14 +72,14 @@ namespace Supple
 
 
   void
-  Simulation::print_mesh_details() const
+  Description::print_mesh_details() const
   {
-    const MeshReport &report = mesh.report;
+    const MeshReport &report = problem.mesh.report;
     std::ostringstream worst;
     worst << report.worst_quality << ", cell " << report.worst_cell << " at ("
           << report.worst_position << "); 1 is regular, 0 is flat";
-    line("boundaries", counts(mesh.boundaries) + "; id (number of faces)");
-    line("materials", counts(mesh.materials) + "; id (number of cells)");
+    line("boundaries", counts(problem.mesh.boundaries) + "; id (number of faces)");
+    line("materials", counts(problem.mesh.materials) + "; id (number of cells)");
     line("pieces", std::to_string(report.pieces.size()));
     line("worst cell", worst.str());
     line("repaired", std::to_string(report.repaired) + " inverted cells");
@@ -83,46 +89,53 @@ namespace Supple
   }
 
 
-  void
-  Simulation::print_description(const bool in_detail) const
+  std::string
+  Description::time_in_words() const
   {
-    if (!talks)
-      return;
-    std::ostringstream time;
-    time << integrator->name() << ", ";
-    if (stationary)
-      time << parameters.time.n_steps << " load steps";
-    else if (parameters.time.has_variable_steps())
-      time << "up to " << integrator->end << " s, relative tolerance "
-           << parameters.time.relative_tolerance;
+    const TimeParameters &time = problem.parameters.time;
+    std::ostringstream text;
+    text << integrator.name() << ", ";
+    if (problem.stationary)
+      text << time.n_steps << " load steps";
+    else if (time.has_variable_steps())
+      text << "up to " << integrator.end << " s, relative tolerance " << time.relative_tolerance;
     else
-      time << parameters.time.n_steps << " steps of " << parameters.time.step << " s";
+      text << time.n_steps << " steps of " << time.step << " s";
+    return text.str();
+  }
+
+
+  void
+  Description::print(const bool in_detail) const
+  {
+    const Mesh &mesh                            = problem.mesh;
     const std::array<const char *, 3> rotations = {
       {"linear elasticity", "corotational, Gram-Schmidt", "corotational, polar"}};
     std::ostringstream volume;
     volume << mesh.volume;
 
-    std::cout << "Supple " << SUPPLE_VERSION << ", scene " << parameters.scene_name << '\n';
+    std::cout << "Supple " << SUPPLE_VERSION << ", scene " << problem.parameters.scene_name << '\n';
     line("body",
          std::to_string(mesh.n_cells) + " " + mesh.cell_name() + ", " +
            std::to_string(mesh.n_vertices) + " vertices in " + mesh.extent() + " m, " +
            volume.str() + " m^3");
     if (in_detail)
       print_mesh_details();
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(mesh.communicator);
     line("unknowns",
-         std::to_string(body.n_dofs()) + ", of which " + std::to_string(constraints.n_held) +
-           " are held; " + (n_ranks == 1 ? "1 process" : std::to_string(n_ranks) + " processes"));
-    line("model", section_in_words() + rotations[static_cast<unsigned int>(body.rotation)]);
-    line("time", time.str());
-    if (const auto stable = integrator->stable_step())
+         std::to_string(problem.body.n_dofs()) + ", of which " +
+           std::to_string(problem.constraints.n_held) + " are held; " +
+           (n_ranks == 1 ? "1 process" : std::to_string(n_ranks) + " processes"));
+    line("model", section_in_words() + rotations[static_cast<unsigned int>(problem.body.rotation)]);
+    line("time", time_in_words());
+    if (const auto stable = integrator.stable_step())
       line("stable step", "up to " + stable->description());
-    if (stationary || !parameters.time.is_explicit())
-      line("solver", solver->name() + " (" + solver->reason + ")");
+    if (problem.stationary || !problem.parameters.time.is_explicit())
+      line("solver", problem.solver->name() + " (" + problem.solver->reason + ")");
     for (const std::string &text : probes.descriptions())
       line("probe", text);
-    if (resumed)
-      line("resumed", "goes on from " + checkpoint.origin());
+    if (course.resumed())
+      line("resumed", "goes on from " + course.origin);
     for (const std::string &text : warnings())
       line("warning", text);
     std::cout << std::flush;
@@ -130,17 +143,18 @@ namespace Supple
 
 
   std::vector<std::string>
-  Simulation::warnings() const
+  Description::warnings() const
   {
-    std::vector<std::string> list = mesh.report.warnings;
-    if (checkpoint.was_damaged())
-      list.push_back("Goes on from " + checkpoint.origin() + "; checkpoint.cbor is damaged.");
-    if (resumed && step == steps_before && finished())
-      list.push_back("Nothing was left to do: step " + std::to_string(step) +
+    const Body &body              = problem.body;
+    std::vector<std::string> list = problem.mesh.report.warnings;
+    if (course.origin_is_second_choice)
+      list.push_back("Goes on from " + course.origin + "; checkpoint.cbor is damaged.");
+    if (course.resumed() && course.now.step == course.steps_before && integrator.finished())
+      list.push_back("Nothing was left to do: step " + std::to_string(course.now.step) +
                      " of the run to go on from is at or beyond the end that is asked for "
                      "(subsection Time).");
-    if (!constraints.free_pieces_in_words().empty())
-      list.push_back(constraints.free_pieces_in_words());
+    if (!problem.constraints.free_pieces_in_words().empty())
+      list.push_back(problem.constraints.free_pieces_in_words());
     list.insert(list.end(), probes.warnings().begin(), probes.warnings().end());
     if (body.rotation == RotationMethod::gram_schmidt)
       list.push_back(
@@ -148,31 +162,31 @@ namespace Supple
         "formula, and "
         "'dissipated' need not grow. They depend on the axes.");
     const double poisson = body.largest_poisson();
-    if (poisson > 0.45 && !body.patches && mesh.section.geometry != Geometry::plane_stress)
+    if (poisson > 0.45 && !body.patches && problem.mesh.section.geometry != Geometry::plane_stress)
       {
         std::ostringstream text;
-        text << "Linear " << mesh.cell_name()
+        text << "Linear " << problem.mesh.cell_name()
              << " are too stiff (they lock) at a Poisson ratio above 0.45; it is " << poisson
              << ". Material/Volumetric locking cure = patches helps.";
         list.push_back(text.str());
       }
-    if (!stationary && parameters.time.method == TimeParameters::Method::ida &&
-        parameters.time.maximum_order > 2)
+    if (!problem.stationary && problem.parameters.time.method == TimeParameters::Method::ida &&
+        problem.parameters.time.maximum_order > 2)
       list.push_back(
         "Backward differentiation of an order above 2 (Time/Maximum order) is not "
         "stable for oscillations that hardly decay: these may grow without bounds.");
-    const std::vector<std::string> more = warnings_of_motion();
-    list.insert(list.end(), more.begin(), more.end());
+    for (const auto &more : {warnings_of_motion(), warnings_of_solver()})
+      list.insert(list.end(), more.begin(), more.end());
     return list;
   }
 
 
   std::vector<std::string>
-  Simulation::warnings_of_motion() const
+  Description::warnings_of_motion() const
   {
     std::vector<std::string> list;
     if (diagnostics.extremes().energy_rises > 0 &&
-        parameters.time.energy_guard != TimeParameters::EnergyGuard::off)
+        problem.parameters.time.energy_guard != TimeParameters::EnergyGuard::off)
       {
         const unsigned int n = diagnostics.extremes().energy_rises;
         list.push_back("In " + std::to_string(n) + (n == 1 ? " step" : " steps") +
@@ -187,17 +201,27 @@ namespace Supple
                      " (history.csv): stress and strain there mean nothing.");
     if (!strains_too_large().empty())
       list.push_back(strains_too_large());
-    if (effort.jumps > 0)
-      list.push_back("In " + std::to_string(effort.jumps) +
+    if (problem.effort.jumps > 0)
+      list.push_back("In " + std::to_string(problem.effort.jumps) +
                      " steps a prescribed motion jumps, or swings to and fro: what it does to the "
                      "body depends on the step and the mesh. Move it over some steps, such as by "
                      "min(t/0.1, 1), or take shorter ones.");
+    return list;
+  }
+
+
+  std::vector<std::string>
+  Description::warnings_of_solver() const
+  {
+    const Effort &effort = problem.effort;
+    std::vector<std::string> list;
     if (effort.stand_in_solves > 0)
-      list.push_back(solver->name() + " failed in " + std::to_string(effort.stand_in_solves) +
-                     " of " + std::to_string(effort.solves) + " systems, which " +
-                     solver->stand_in_name() + " solved in its stead.");
+      list.push_back(problem.solver->name() + " failed in " +
+                     std::to_string(effort.stand_in_solves) + " of " +
+                     std::to_string(effort.solves) + " systems, which " +
+                     problem.solver->stand_in_name() + " solved in its stead.");
     // Each solver has met its own criterion, and what was left over was solved for three times.
-    const double tolerance = parameters.solver.tolerance;
+    const double tolerance = problem.parameters.solver.tolerance;
     if (effort.max_relative_residual > 2. * tolerance)
       list.push_back("The worst linear solve left a relative residual of " +
                      digits(effort.max_relative_residual, 2) + " where " + digits(tolerance, 2) +
@@ -207,7 +231,7 @@ namespace Supple
 
 
   std::string
-  Simulation::strains_too_large() const
+  Description::strains_too_large() const
   {
     const Extremes &worst = diagnostics.extremes();
     std::string text;
@@ -224,50 +248,46 @@ namespace Supple
 
 
   std::string
-  Simulation::energy_from_nowhere() const
+  Description::energy_from_nowhere() const
   {
-    if (-now.dissipated <= 0.2 * largest_energy || body.rotation == RotationMethod::gram_schmidt)
+    if (-course.now.dissipated <= 0.2 * course.largest_energy ||
+        problem.body.rotation == RotationMethod::gram_schmidt)
       return "";
     std::ostringstream text;
-    text << "The time stepping added " << -now.dissipated << " J to a motion of at most "
-         << largest_energy
+    text << "The time stepping added " << -course.now.dissipated << " J to a motion of at most "
+         << course.largest_energy
          << " J: it is not to be trusted. Take shorter steps, variable steps or another method.";
     return text.str();
   }
 
 
-  std::string
-  Simulation::where_results_are(const std::string &which) const
-  {
-    return folder.empty() ? "" : " The results " + which + " are in " + folder + ".";
-  }
-
-
   void
-  Simulation::print_result() const
+  print_result(const Summary &summary,
+               const std::string &folder,
+               const std::string &report,
+               const std::vector<std::string> &told)
   {
-    std::cout << "done: " << step << " steps in " << readable_duration(run_seconds) << ", "
-              << std::lround(step / run_seconds) << " steps/s";
-    if (implicit_operator.has_mass())
-      std::cout << "; motion " << largest_motion << " m";
-    if (implicit_operator.has_mass() && std::isfinite(error_estimate))
-      std::cout << ", sum of local errors " << error_estimate << " m";
-    std::cout << "; " << (frames ? frames->n_written() : 0) << " frames in " << folder << std::endl;
-    for (const std::string &text : warnings())
-      if (std::find(warnings_told.begin(), warnings_told.end(), text) == warnings_told.end())
+    std::cout << "done: " << summary.steps << " steps in " << readable_duration(summary.run_seconds)
+              << ", " << std::lround(summary.steps / summary.run_seconds) << " steps/s";
+    if (summary.has_mass)
+      std::cout << "; motion " << summary.largest_motion << " m";
+    if (summary.has_mass && std::isfinite(summary.error_estimate))
+      std::cout << ", sum of local errors " << summary.error_estimate << " m";
+    std::cout << "; " << summary.frames << " frames in " << folder << std::endl;
+    for (const std::string &text : summary.warnings)
+      if (std::find(told.begin(), told.end(), text) == told.end())
         line("warning", text);
-    if (writes_report)
-      line("report", folder + "/report.html");
-    if (!step_doubling)
+    if (!report.empty())
+      line("report", report);
+    const StepDoubling *const second = summary.step_doubling;
+    if (!second)
       return;
-    if (step_doubling->failure.empty() && largest_motion > 0.)
-      std::cout << "error: " << step_doubling->largest << " m ("
-                << 100. * step_doubling->largest / largest_motion << " % of the motion), "
-                << step_doubling->last << " m at the end, by a second run with "
-                << step_doubling->name << " in " << readable_duration(step_doubling->seconds)
-                << std::endl;
-    else if (!step_doubling->failure.empty())
-      std::cout << "error: unknown, for the second run failed: " << step_doubling->failure
-                << std::endl;
+    if (second->failure.empty() && summary.largest_motion > 0.)
+      std::cout << "error: " << second->largest << " m ("
+                << 100. * second->largest / summary.largest_motion << " % of the motion), "
+                << second->last << " m at the end, by a second run with " << second->name << " in "
+                << readable_duration(second->seconds) << std::endl;
+    else if (!second->failure.empty())
+      std::cout << "error: unknown, for the second run failed: " << second->failure << std::endl;
   }
 } // namespace Supple
