@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
-"""Looks through the tree without building anything: lengths of files and functions, include guards, white space, the links
-of the Markdown pages, and whether the picture of the modules has all headers. scripts/check.py [--longest N]; --longest lists
-the longest files and functions instead."""
+"""Checks the tree without building anything: lengths of files and functions, include guards, white space, the links of the
+Markdown pages, and that each folder of the code includes from the folders below it alone. scripts/check.py [--longest N];
+--longest lists the longest files and functions instead."""
 
 import argparse
 import ast
-import fnmatch
 import pathlib
 import re
 import subprocess
@@ -16,6 +15,12 @@ MOST_LINES = 700
 MOST_LINES_OF_FUNCTION = 60
 CODE = {".cc", ".h", ".py", ".js", ".mjs", ".css", ".sh"}
 NO_TEXT = {".png", ".svg", ".msh", ".output", ".csv", ".json"}
+# The folders of include/supple and source, from the ground up: each includes from those before it.
+FLOORS = ["base", "input", "linear_algebra", "multigrid", "mesh", "mechanics", "forces", "solvers", "time", "observe", "output",
+          "scene", "report", "run", "study", "identification", "program"]
+BESIDE = {("study", "identification"), ("identification", "study")}
+# What is measured and written does not depend on who made the step: of `time` it knows what a step reports.
+ONLY = {("observe", "time"): "supple/time/step_report.h", ("output", "time"): "supple/time/step_report.h"}
 SCOPE = re.compile(r"\s*(inline )?(namespace|struct|class|enum|union|extern)\b")
 
 JAVASCRIPT_FUNCTION = re.compile(r"(?P<indent>\s*)(export |default |async |static |get |set )*"
@@ -142,22 +147,42 @@ def link_problems(path):
                 yield f"{number}: {name or path.name} has no heading for #{anchor}"
 
 
-def picture_problems():
-    """doc/modules.dot names every header, perhaps many at once as in *_parameters, and nothing that is not there."""
-    named = {name for names in re.findall(r'color="#5b666e">(.*?)</font>', (ROOT / "doc/modules.dot").read_text())
-             for name in re.split(r"(?:, ?|<br/>)+", names)}
-    headers = {path.stem for path in (ROOT / "include/supple").rglob("*.h")}
-    sources = headers | {path.stem for path in (ROOT / "source").rglob("*.cc")}
-    for header in sorted(headers):
-        if not any(fnmatch.fnmatch(header, name) for name in named):
-            yield f"doc/modules.dot:1: {header} is missing in the picture of the modules"
-    for name in sorted(named):
-        if not fnmatch.filter(sources, name):
-            yield f"doc/modules.dot:1: there is no {name}"
+def floor(path):
+    """The folder of include/supple or source that a file is in; nothing for files elsewhere."""
+    parts = path.relative_to(ROOT).parts
+    return parts[2] if parts[:2] == ("include", "supple") else parts[1] if parts[0] == "source" else None
+
+
+def includes(path):
+    """(line, included file, its folder) of what a file includes from this project."""
+    for number, line in enumerate(path.read_text().split("\n"), 1):
+        if found := re.match(r"#include <(supple/(\w+)/\w+\.h)>", line):
+            yield number, found[1], found[2]
+
+
+def points_up(here, included):
+    return FLOORS.index(included) > FLOORS.index(here) or (here, included) in BESIDE
+
+
+def floor_problems(path):
+    """A folder includes from the folders below it alone."""
+    here = floor(path)
+    if here is None or path.suffix not in (".cc", ".h"):
+        return
+    if here not in FLOORS:
+        yield f"1: {here} is not one of the folders in FLOORS of scripts/check.py"
+        return
+    for number, included, there in includes(path):
+        if there not in FLOORS:
+            yield f"{number}: {there} is not one of the folders in FLOORS of scripts/check.py"
+        elif points_up(here, there):
+            yield f"{number}: {here} includes from {there}, which is above or beside it"
+        elif included != ONLY.get((here, there), included):
+            yield f"{number}: of {there}, {here} may include {ONLY[here, there]} alone"
 
 
 def problems(path):
-    for kind in (guard_problems, length_problems, white_space_problems, link_problems):
+    for kind in (guard_problems, length_problems, white_space_problems, link_problems, floor_problems):
         for problem in kind(path):
             yield f"{path.relative_to(ROOT)}:{problem}"
 
@@ -180,7 +205,7 @@ def main():
     if options.longest:
         print_longest(options.longest)
         return
-    found = [problem for path in files() for problem in problems(path)] + list(picture_problems())
+    found = [problem for path in files() for problem in problems(path)]
     print("\n".join(found), end="\n" if found else "")
     sys.exit(1 if found else 0)
 

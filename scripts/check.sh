@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Checks what needs no compiler: scripts/check.sh [--fix]. Formatting, include guards, lengths, white space, spelling,
-# links; and, where the program is built, that doc/parameters is what it says of itself. --fix formats the sources and
-# makes doc/parameters anew first. The tests `scenes` and `parameter_reference` look at every scene and at doc/parameters too.
+# Checks what needs no compiler: scripts/check.sh [--fix]. Formatting, include guards, lengths, white space, spelling, links,
+# what each folder of the code includes, and the picture of the folders; and, where the program is built, that doc/parameters
+# is what it says of itself. --fix formats the sources and makes doc/parameters and doc/modules.dot anew first. The tests
+# `scenes` and `parameter_reference` look at every scene and at doc/parameters too.
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 install_missing test
@@ -28,7 +29,9 @@ if [ -x "$supple" ]; then
   if [ "${1:-}" = --fix ]; then scripts/parameter-reference.py "$supple"; fi
   check "parameter reference" scripts/parameter-reference.py "$supple" --check
 fi
-check "lengths, guards, white space, links, picture of the modules" scripts/check.py
+if [ "${1:-}" = --fix ]; then scripts/modules.py; fi
+check "picture of the folders" scripts/modules.py --check
+check "lengths, guards, white space, links, includes" scripts/check.py
 check spelling codespell
 check "shell scripts" bash -n scripts/*.sh .ci/run
 

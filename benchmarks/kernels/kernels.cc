@@ -5,7 +5,8 @@
 //   kernels [--benchmark_... of Google Benchmark] SCENE.prm [Section/Entry=value]...
 
 #include <supple/multigrid/block_smoother.h>
-#include <supple/solvers/implicit_operator.h>
+#include <supple/run/problem.h>
+#include <supple/scene/read_scene.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -20,22 +21,19 @@ namespace
 
   struct Bar
   {
-    const Parameters parameters;
-    Effort effort;
-    const Mesh mesh;
-    const Body body;
-    const Constraints constraints;
-    ImplicitOperator A;
+    Problem problem;
+    const Body &body;
+    Effort &effort;
+    ImplicitOperator &A;
     BlockSmoother<3> smoother;
-    Vector displacement, force, x, y;
+    Vector force, x, y;
     std::vector<NodeValues<3>> z, b, r, change, product;
 
     Bar(const std::string &scene, const std::vector<Override> &changes)
-      : parameters(Parameters::read(scene, changes))
-      , mesh(parameters, MPI_COMM_WORLD)
-      , body(mesh, parameters)
-      , constraints(body, parameters)
-      , A(body, constraints, parameters, effort)
+      : problem(read_scene(scene, changes), MPI_COMM_WORLD)
+      , body(problem.body)
+      , effort(problem.effort)
+      , A(problem.implicit_operator)
       , smoother(A.matrix().pattern)
       , z(body.n_local)
       , b(body.n_local)
@@ -43,22 +41,34 @@ namespace
       , change(body.n_local)
       , product(body.n_local)
     {
-      for (Vector *vector : {&displacement, &force, &x, &y})
+      for (Vector *vector : {&force, &x, &y})
         body.initialize(*vector);
+      Vector &u = problem.configuration.state.displacement;
       for (unsigned int dof = 0; dof < 3 * body.n_owned; ++dof)
         {
-          x.local_element(dof)            = std::sin(0.1 * dof);
-          displacement.local_element(dof) = 1e-3 * std::cos(0.01 * dof);
+          x.local_element(dof) = std::sin(0.1 * dof);
+          u.local_element(dof) = 1e-3 * std::cos(0.01 * dof);
         }
-      constraints.set_zero(displacement);
+      problem.constraints.set_zero(u);
       for (std::size_t node = 0; node < body.n_owned; ++node)
         b[node].lanes = Lanes<float, 3>{1.f, 2.f, 3.f, 0.f};
-      body.update_rotations(displacement, effort);
-      const double dt = parameters.time.step;
-      A.assemble(dt);
+      update_rotations();
+      A.assemble(problem.parameters.time.step);
       const SymmetricBlockMatrix &matrix = A.matrix();
       smoother.set({matrix.pattern, matrix.lower.data(), matrix.diagonal.data()},
                    1. / matrix.diagonal[0]);
+    }
+
+    void
+    update_rotations()
+    {
+      problem.configuration.update_rotations(effort);
+    }
+
+    void
+    set_force()
+    {
+      problem.forces.set_force(force, problem.configuration, 0., effort);
     }
 
     double
@@ -115,15 +125,13 @@ namespace
   measure_cells(Bar &bar)
   {
     const double n = bar.n_cells();
-    measure("rotation", 0., n, [&] { bar.body.update_rotations(bar.displacement, bar.effort); });
-    measure("force", 0., n, [&] {
-      bar.body.internal_force(bar.force, bar.displacement, bar.effort);
-    });
-    measure("assembly", 0., n, [&] { bar.A.assemble(bar.parameters.time.step); });
+    measure("rotation", 0., n, [&] { bar.update_rotations(); });
+    measure("force", 0., n, [&] { bar.set_force(); });
+    measure("assembly", 0., n, [&] { bar.A.assemble(bar.problem.parameters.time.step); });
     measure("rotation, force, assembly", 0., n, [&] {
-      bar.body.update_rotations(bar.displacement, bar.effort);
-      bar.body.internal_force(bar.force, bar.displacement, bar.effort);
-      bar.A.assemble(bar.parameters.time.step);
+      bar.update_rotations();
+      bar.set_force();
+      bar.A.assemble(bar.problem.parameters.time.step);
     });
   }
 

@@ -4,53 +4,35 @@
 //
 //   overhead SCENE.prm [repetitions [integrator | loop]]
 
-#include <supple/time/time_integrator.h>
+#include <supple/run/problem.h>
+#include <supple/scene/read_scene.h>
+#include <supple/time/create_integrator.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <stdexcept>
 
 namespace
 {
   using namespace Supple;
 
-  /** All that a run has, for one of the two. */
+  /** The problem of a scene, and steps of it by one of the two. */
   struct Run
   {
-    const Parameters parameters;
-    Effort effort;
-    const Mesh mesh;
-    const Body body;
-    const Constraints constraints;
-    const Loads loads;
-    ImplicitOperator implicit_operator;
-    const std::unique_ptr<LinearSolver> solver;
-    State state;
+    Problem problem;
 
     explicit Run(const std::string &scene)
-      : parameters(Parameters::read(scene))
-      , mesh(parameters, MPI_COMM_WORLD)
-      , body(mesh, parameters)
-      , constraints(body, parameters)
-      , loads(body, parameters)
-      , implicit_operator(body, constraints, parameters, effort)
-      , solver(LinearSolver::create(implicit_operator, parameters, effort))
-      , state(2)
+      : problem(read_scene(scene), MPI_COMM_WORLD)
     {
-      if (parameters.damping.any() || constraints.move() || loads.follow() ||
-          parameters.time.method != TimeParameters::Method::backward_euler)
+      const Parameters &parameters = problem.parameters;
+      if (parameters.damping.any() || problem.constraints.move() ||
+          parameters.loads.pressure != "0" || parameters.time.method != TimeMethod::backward_euler)
         throw std::runtime_error(
           "the bare loop knows backward Euler without damping, motions and pressure");
-      for (unsigned int b = 0; b < 2; ++b)
-        body.initialize(state.block(b));
-      state.collect_sizes();
-      const Expression velocity(parameters.start.velocity, 3, "Start/Velocity");
-      for (unsigned int node = 0; node < body.n_owned; ++node)
-        for (unsigned int i = 0; i < 3; ++i)
-          state.block(1).local_element(3 * node + i) = velocity.value(body.position(node), 0., i);
-      constraints.set_zero(state.block(1));
-      body.update_rotations(state.block(0), effort);
+      problem.configuration.update_rotations(problem.effort);
     }
 
     virtual ~Run() = default;
@@ -62,14 +44,14 @@ namespace
     std::vector<double>
     measure()
     {
-      effort                     = Effort();
-      const unsigned int n_steps = parameters.time.n_steps;
+      problem.effort             = Effort();
+      const unsigned int n_steps = problem.parameters.time.n_steps;
       const auto start           = std::chrono::steady_clock::now();
       for (unsigned int k = 0; k < n_steps; ++k)
         step();
       const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
       std::vector<double> result                  = {1e6 * seconds.count() / n_steps};
-      for (const double phase : effort.seconds)
+      for (const double phase : problem.effort.seconds)
         result.push_back(1e6 * phase / n_steps);
       return result;
     }
@@ -81,36 +63,36 @@ namespace
   {
     double time      = 0.;
     bool is_prepared = false;
-    Vector force, increment, moved;
+    Vector force, increment;
 
     explicit BareLoop(const std::string &scene)
       : Run(scene)
     {
-      for (Vector *vector : {&force, &increment, &moved})
-        body.initialize(*vector);
+      for (Vector *vector : {&force, &increment})
+        problem.body.initialize(*vector);
     }
 
     void
     step() override
     {
-      const double dt = parameters.time.step;
-      Vector &u = state.block(0), &v = state.block(1);
-      if (!is_prepared || body.rotation != RotationMethod::none)
+      const double dt              = problem.parameters.time.step;
+      Configuration &configuration = problem.configuration;
+      Vector &u = configuration.state.displacement, &v = configuration.state.velocity;
+      if (!is_prepared || problem.forces.change_operator())
         {
-          implicit_operator.assemble(dt);
-          solver->prepare(u);
+          problem.implicit_operator.assemble(dt);
+          problem.solver->prepare(u);
           is_prepared = true;
         }
-      moved = u;
-      moved.add(dt, v);
-      time += dt;
-      body.internal_force(force, moved, effort);
-      force.sadd(-dt, dt, loads.force(time, u));
-      constraints.set_zero(force);
-      solver->solve(increment, force);
-      v += increment;
       u.add(dt, v);
-      body.update_rotations(u, effort);
+      time += dt;
+      problem.forces.set_force(force, configuration, time, problem.effort);
+      force *= dt;
+      problem.constraints.set_zero(force);
+      problem.solver->solve(increment, force);
+      v += increment;
+      u.add(dt, increment);
+      configuration.update_rotations(problem.effort);
     }
   };
 
@@ -121,16 +103,14 @@ namespace
 
     explicit ByIntegrator(const std::string &scene)
       : Run(scene)
-      , integrator(TimeIntegrator::create(
-          {body, constraints, loads, implicit_operator, *solver, parameters, effort},
-          state.block(0)))
+      , integrator(create_integrator(problem.model()))
     {
     }
 
     void
     step() override
     {
-      integrator->advance(state, false);
+      integrator->advance(false);
     }
   };
 
@@ -175,7 +155,7 @@ namespace
     std::printf(
       "| %u cells | us a step | rotations | forces | assembly | factorization | solution | rest |\n"
       "|---|---|---|---|---|---|---|---|\n",
-      loop.mesh.n_cells);
+      loop.problem.mesh.n_cells);
     print("bare loop", median(by_loop));
     print("SUNDIALS", median(by_integrator));
     std::vector<double> differences;
@@ -189,7 +169,8 @@ namespace
       differences[n_repetitions / 4],
       differences[3 * n_repetitions / 4]);
     std::printf("apart: %.1e m\n",
-                largest_vertex_distance(loop.state.block(0), integrator.state.block(0)));
+                largest_vertex_distance(loop.problem.configuration.displacement(),
+                                        integrator.problem.configuration.displacement()));
   }
 } // namespace
 

@@ -51,4 +51,31 @@ namespace Supple
     if (problem)
       throw WriteError(file + " can't be written (" + problem.message() + ").");
   }
+
+
+  void
+  remove_files(const std::string &folder, const std::vector<std::string> &names)
+  {
+    namespace fs = std::filesystem;
+    for (const std::string &name : names)
+      {
+        const fs::path path        = fs::path(folder) / name;
+        const std::string pattern  = path.filename().string();
+        const std::size_t wildcard = pattern.find('*');
+        if (wildcard == std::string::npos)
+          {
+            fs::remove(path);
+            continue;
+          }
+        const std::string begin = pattern.substr(0, wildcard), end = pattern.substr(wildcard + 1);
+        if (fs::is_directory(path.parent_path()))
+          for (const auto &entry : fs::directory_iterator(path.parent_path()))
+            {
+              const std::string found = entry.path().filename().string();
+              if (found.size() >= begin.size() + end.size() && found.rfind(begin, 0) == 0 &&
+                  found.compare(found.size() - end.size(), end.size(), end) == 0)
+                fs::remove(entry.path());
+            }
+      }
+  }
 } // namespace Supple

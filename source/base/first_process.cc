@@ -1,5 +1,6 @@
-#include <supple/base/error.h>
 #include <supple/base/first_process.h>
+
+#include <supple/base/error.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,9 +1,10 @@
+#include <supple/identification/identification.h>
+
 #include <supple/base/csv_file.h>
 #include <supple/base/error.h>
 #include <supple/base/files.h>
 #include <supple/base/interrupt.h>
 #include <supple/base/progress.h>
-#include <supple/identification/identification.h>
 
 #include <algorithm>
 #include <chrono>

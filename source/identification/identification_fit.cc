@@ -1,5 +1,6 @@
-#include <supple/base/error.h>
 #include <supple/identification/identification_fit.h>
+
+#include <supple/base/error.h>
 
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>

@@ -1,5 +1,6 @@
-#include <supple/base/error.h>
 #include <supple/identification/identification_parameters.h>
+
+#include <supple/base/error.h>
 #include <supple/input/entries.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-#include <supple/base/text.h>
 #include <supple/identification/identification_table.h>
+
+#include <supple/base/text.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,9 @@
+#include <supple/identification/layered_model.h>
+
 #include <supple/base/error.h>
 #include <supple/base/expression.h>
 #include <supple/base/text.h>
-#include <supple/identification/layered_model.h>
+#include <supple/input/entries.h>
 #include <supple/run/simulation.h>
 
 #include <algorithm>
@@ -44,7 +46,7 @@ namespace Supple
                        ": an identification needs displacements that are proportional to the depth "
                        "of the needle; set Rotation = none.");
     const LoadParameters &loads = base.loads;
-    if (loads.gravity.norm() > 0.)
+    if (!Expression(loads.gravity_expressions(), 3, base.origin("Loads/Gravity")).is_zero())
       throw InputError(
         base.origin("Loads/Gravity") +
         ": in an identification the needle alone moves the skin; set it to 0, 0, 0.");
@@ -68,7 +70,7 @@ namespace Supple
       throw InputError(base.origin("Mesh/Shape") +
                        ": an identification changes the layers of a box or a rectangle.");
     if (base.material.constants != MaterialParameters::Constants::young_poisson)
-      throw InputError(base.origin("Material/Constants") +
+      throw InputError(base.origin("Material/Elastic constants") +
                        ": an identification needs Young modulus and Poisson ratio.");
     const std::string here = base.origin("Material/By id");
     const auto exceptions  = base.material.exceptions(here);

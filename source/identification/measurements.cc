@@ -1,6 +1,7 @@
+#include <supple/identification/measurements.h>
+
 #include <supple/base/error.h>
 #include <supple/base/text.h>
-#include <supple/identification/measurements.h>
 
 #include <deal.II/base/utilities.h>
 

@@ -1,5 +1,6 @@
-#include <supple/base/error.h>
 #include <supple/identification/surface_response.h>
+
+#include <supple/base/error.h>
 
 #include <boost/math/tools/toms748_solve.hpp>
 

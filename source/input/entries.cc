@@ -1,5 +1,7 @@
 #include <supple/input/entries.h>
 
+#include <supple/base/error.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <deal.II/base/utilities.h>
@@ -167,5 +169,35 @@ namespace Supple
   RangeList::clone() const
   {
     return std::make_unique<RangeList>(words, range, least, most);
+  }
+
+
+  std::vector<std::pair<std::string, std::string>>
+  named_list(const std::string &text, const std::string &origin)
+  {
+    std::vector<std::pair<std::string, std::string>> list;
+    for (const std::string &item : dealii::Utilities::split_string_list(text, ';'))
+      {
+        if (item.empty())
+          continue;
+        std::smatch found;
+        if (!std::regex_match(item, found, std::regex("([A-Za-z_][A-Za-z_0-9]*)\\s*:\\s*(.+)")))
+          throw InputError(origin + ": '" + item +
+                           "' is not of the form name: value (a name has letters, digits and _).");
+        for (const auto &[name, value] : list)
+          if (name == found[1])
+            throw InputError(origin + ": the name '" + name + "' is given twice.");
+        list.emplace_back(found[1], found[2]);
+      }
+    return list;
+  }
+
+
+  unsigned int
+  boundary_id(const std::string &text, const std::string &origin)
+  {
+    if (text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
+      throw InputError(origin + ": '" + text + "' is no boundary id.");
+    return std::stoul(text);
   }
 } // namespace Supple

@@ -1,6 +1,7 @@
+#include <supple/input/parameter_file.h>
+
 #include <supple/base/error.h>
 #include <supple/base/text.h>
-#include <supple/input/parameter_file.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -10,6 +11,7 @@
 #include <regex>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 namespace Supple
@@ -300,6 +302,8 @@ namespace Supple
   {
     const Lines lines = find_lines(file, text);
     places            = lines.entries;
+    for (const auto &[entry, place] : known_names(prm).entries)
+      declared.insert(entry);
     std::istringstream content(text);
     try
       {
@@ -329,9 +333,19 @@ namespace Supple
   }
 
 
+  void
+  ParameterFile::require_declared(const std::string &entry) const
+  {
+    if (!declared.empty() && declared.count(entry) == 0)
+      throw std::logic_error("the program asks for an entry " + entry +
+                             ", which it never declared");
+  }
+
+
   std::string
   ParameterFile::place(const std::string &entry) const
   {
+    require_declared(entry);
     const auto found = places.find(entry);
     return found == places.end() ? file : found->second;
   }
@@ -340,6 +354,7 @@ namespace Supple
   std::string
   ParameterFile::origin(const std::string &entry) const
   {
+    require_declared(entry);
     const auto found = places.find(entry);
     if (found == places.end())
       return entry + " (not set in the scene)";

@@ -1,5 +1,6 @@
-#include <supple/base/memory.h>
 #include <supple/linear_algebra/block_matrix.h>
+
+#include <supple/base/memory.h>
 
 #include <algorithm>
 #include <array>

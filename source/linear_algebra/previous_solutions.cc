@@ -16,8 +16,9 @@ namespace Supple
   } // namespace
 
 
-  PreviousSolutions::PreviousSolutions(const Body &body)
-    : body(body)
+  PreviousSolutions::PreviousSolutions(
+    const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &partitioner)
+    : partitioner(partitioner)
     , matrix(n_kept, n_kept)
   {
     pairs.reserve(n_kept);
@@ -34,7 +35,7 @@ namespace Supple
       sums[i] = Map(vector.begin(), n).dot(Map(pairs[i].product.begin(), n));
     const dealii::ArrayView<double> view(sums.data(), sums.size());
     dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(view),
-                                body.mesh.communicator,
+                                partitioner->get_mpi_communicator(),
                                 view);
     return sums;
   }
@@ -68,8 +69,8 @@ namespace Supple
       {
         next = pairs.size();
         pairs.emplace_back();
-        body.initialize(pairs[next].solution);
-        body.initialize(pairs[next].product);
+        pairs[next].solution.reinit(partitioner);
+        pairs[next].product.reinit(partitioner);
       }
     Pair &pair    = pairs[next];
     pair.solution = x;

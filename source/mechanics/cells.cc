@@ -1,9 +1,9 @@
-#include <supple/base/memory.h>
 #include <supple/mechanics/cells.h>
+
+#include <supple/base/memory.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace Supple
 {
@@ -76,10 +76,10 @@ namespace Supple
                const unsigned int n_threads)
     : n_cells(cells.size())
     , n_owned(n_owned)
-    , lumped_mass(lumped_mass)
     , vertex_mass(vertex_mass)
     , section(section)
     , n_nodes(section.plane() ? 3 : 4)
+    , lumped_mass(lumped_mass)
     , pair_share(1. / (n_nodes * (n_nodes + 1)))
     , positions(positions)
   {
@@ -146,7 +146,7 @@ namespace Supple
     else
       batch.volume[lane] = shape_gradients(X, g);
 
-    const IsotropicMaterial material = section.effective(cell.material);
+    const IsotropicMaterial material = effective(cell.material, section);
     batch.lambda[lane]               = material.lambda;
     batch.mu[lane]                   = material.mu;
     batch.density[lane]              = material.density;
@@ -174,225 +174,6 @@ namespace Supple
         for (unsigned int a = 0; a < 3; ++a)
           hoops[number / n_lanes].nodal_radius[a][lane] = X[order[a]][0] / radius;
       }
-  }
-
-
-  void
-  Cells::connect(const SymmetricPattern &pattern)
-  {
-    slots.clear();
-    resize_in_huge_pages(slots, batches.size());
-    std::size_t chunk = 0;
-    for (std::size_t b = 0; b < batches.size(); ++b)
-      for (unsigned int lane = 0; lane < n_lanes; ++lane)
-        {
-          while (b >= chunk_start[chunk + 1])
-            ++chunk;
-          const std::size_t spare = chunk / 2; // that of its thread
-          const bool empty        = b * n_lanes + lane >= n_cells;
-          const auto node         = [&](const unsigned int a) { return batches[b].nodes[a][lane]; };
-          const auto exists       = [&](const unsigned int a) { return !empty && a < n_nodes; };
-          for (unsigned int a = 0; a < 4; ++a)
-            slots[b].diagonal[a][lane] =
-              exists(a) && node(a) < pattern.n_owned ? node(a) : pattern.n_owned + spare;
-          for (unsigned int p = 0; p < 6; ++p)
-            {
-              slots[b].lower[p][lane] =
-                exists(lower_pairs[p][0])
-                  ? pattern.position(node(lower_pairs[p][0]), node(lower_pairs[p][1]))
-                  : pattern.n_entries();
-              if (slots[b].lower[p][lane] == pattern.n_entries())
-                slots[b].lower[p][lane] += spare;
-            }
-        }
-  }
-
-
-  Cells::NodalPack
-  Cells::gather(const Batch &batch, const double *nodal)
-  {
-    NodalPack values;
-    for (unsigned int a = 0; a < 4; ++a)
-      {
-        alignas(64) double buffer[3][n_lanes];
-        for (unsigned int lane = 0; lane < n_lanes; ++lane)
-          for (unsigned int i = 0; i < 3; ++i)
-            buffer[i][lane] = nodal[3 * static_cast<std::size_t>(batch.nodes[a][lane]) + i];
-        for (unsigned int i = 0; i < 3; ++i)
-          values[a][i].copy_from(buffer[i], stdx::vector_aligned);
-      }
-    return values;
-  }
-
-
-  void
-  Cells::scatter(const Batch &batch, const NodalPack &values, double *nodal)
-  {
-    for (unsigned int a = 0; a < 4; ++a)
-      {
-        alignas(64) double buffer[3][n_lanes];
-        for (unsigned int i = 0; i < 3; ++i)
-          values[a][i].copy_to(buffer[i], stdx::vector_aligned);
-        for (unsigned int lane = 0; lane < n_lanes; ++lane)
-          for (unsigned int i = 0; i < 3; ++i)
-            nodal[3 * static_cast<std::size_t>(batch.nodes[a][lane]) + i] += buffer[i][lane];
-      }
-  }
-
-
-  Matrix3<Pack>
-  Cells::gradient(const std::size_t b, const NodalPack &values) const
-  {
-    const Batch &batch = batches[b];
-    Matrix3<Pack> G;
-    for (unsigned int i = 0; i < 3; ++i)
-      for (unsigned int j = 0; j < 3; ++j)
-        G(i, j) = values[0][i] * batch.gradients[0][j] + values[1][i] * batch.gradients[1][j] +
-                  values[2][i] * batch.gradients[2][j] + values[3][i] * batch.gradients[3][j];
-    if (!hoops.empty())
-      G(2, 2) += hoops[b].gradient * (values[0][0] + values[1][0] + values[2][0]);
-    return G;
-  }
-
-
-  Matrix3<Pack>
-  Cells::deformation_gradient(const std::size_t b, const double *displacement) const
-  {
-    Matrix3<Pack> F = gradient(b, gather(batches[b], displacement));
-    for (unsigned int i = 0; i < 3; ++i)
-      F(i, i) += 1.;
-    return F;
-  }
-
-
-  Matrix3<Pack>
-  Cells::rotation_of(const std::size_t b) const
-  {
-    return rotations.empty() ? Matrix3<Pack>::identity() : rotations[b];
-  }
-
-
-  Matrix3<Pack>
-  Cells::rotated_back(const std::size_t b, const Matrix3<Pack> &G) const
-  {
-    Matrix3<Pack> S = transposed_product(rotation_of(b), G);
-    for (unsigned int i = 0; i < 3; ++i)
-      for (unsigned int j = 0; j < i; ++j)
-        S(i, j) = S(j, i) = 0.5 * (S(i, j) + S(j, i));
-    return S;
-  }
-
-
-  Matrix3<Pack>
-  Cells::strain(const std::size_t b, const Matrix3<Pack> &F) const
-  {
-    Matrix3<Pack> e = rotated_back(b, F);
-    for (unsigned int i = 0; i < 3; ++i)
-      e(i, i) -= 1.;
-    return e;
-  }
-
-
-  Matrix3<Pack>
-  Cells::stress(const Batch &batch, const Matrix3<Pack> &strain)
-  {
-    Matrix3<Pack> P;
-    for (unsigned int k = 0; k < 9; ++k)
-      P.entries[k] = 2. * batch.mu * strain.entries[k];
-    const Pack pressure = batch.lambda * trace(strain);
-    for (unsigned int i = 0; i < 3; ++i)
-      P(i, i) += pressure;
-    return P;
-  }
-
-
-  Cells::NodalPack
-  Cells::divergence(const std::size_t b, const Matrix3<Pack> &P) const
-  {
-    const auto &g = batches[b].gradients;
-    NodalPack f;
-    for (unsigned int a = 0; a < 4; ++a)
-      for (unsigned int i = 0; i < 3; ++i)
-        f[a][i] = P(i, 0) * g[a][0] + P(i, 1) * g[a][1] + P(i, 2) * g[a][2];
-    if (!hoops.empty())
-      for (unsigned int a = 0; a < 3; ++a)
-        f[a][0] += hoops[b].gradient * P(2, 2);
-    return f;
-  }
-
-
-  void
-  Cells::add_stress_divergence(const std::size_t b,
-                               const Matrix3<Pack> &strain,
-                               double *force) const
-  {
-    const Batch &batch = batches[b];
-    Matrix3<Pack> P    = stress(batch, strain);
-    if (!rotations.empty())
-      P = rotations[b] * P;
-    for (Pack &entry : P.entries)
-      entry *= batch.volume;
-    scatter(batch, divergence(b, P), force);
-  }
-
-
-  void
-  Cells::update_rotations(const RotationMethod method, const double *displacement)
-  {
-    if (rotations.empty())
-      resize_in_huge_pages(rotations, batches.size());
-    if (section.plane())
-      for_batches([&](const std::size_t b) {
-        rotations[b] = rotation_in_plane(method, deformation_gradient(b, displacement));
-      });
-    else
-      for_batches([&](const std::size_t b) {
-        rotations[b] = rotation(method, deformation_gradient(b, displacement));
-      });
-  }
-
-
-  void
-  Cells::add_internal_force(const double *displacement, double *force) const
-  {
-    for_batches_in_turn([&](const std::size_t b) {
-      add_stress_divergence(b, strain(b, deformation_gradient(b, displacement)), force);
-    });
-  }
-
-
-  void
-  Cells::add_stiffness_product(const double *w, double *y) const
-  {
-    for_batches_in_turn([&](const std::size_t b) {
-      add_stress_divergence(b, rotated_back(b, gradient(b, gather(batches[b], w))), y);
-    });
-  }
-
-
-  Pack
-  Cells::nodal_share(const std::size_t b, const unsigned int a) const
-  {
-    if (hoops.empty())
-      return 1. / n_nodes;
-    return (3. + hoops[b].nodal_radius[a]) / 12.;
-  }
-
-
-  /**
-   * (1 + delta_ac) pair_share of the cell's mass. All around an axis the integral of N_a N_c has
-   * the weight r, which makes it (3 + r_a/r + r_c/r)/5 times that.
-   */
-  Pack
-  Cells::mass_entry(const std::size_t b, const unsigned int a, const unsigned int c) const
-  {
-    const Pack mass = batches[b].density * batches[b].volume;
-    if (lumped_mass)
-      return a == c ? nodal_share(b, a) * mass : Pack(0.);
-    const Pack share = (a == c ? 2. : 1.) * pair_share * mass;
-    if (hoops.empty())
-      return share;
-    return 0.2 * (3. + hoops[b].nodal_radius[a] + hoops[b].nodal_radius[c]) * share;
   }
 
 
@@ -459,29 +240,6 @@ namespace Supple
 
 
   void
-  Cells::add_mass(SymmetricScalarMatrix &M) const
-  {
-    for (std::size_t b = 0; b < batches.size(); ++b)
-      {
-        for (unsigned int a = 0; a < 4; ++a)
-          {
-            const Pack entry = mass_entry(b, a, a);
-            for (unsigned int lane = 0; lane < n_lanes; ++lane)
-              M.diagonal[slots[b].diagonal[a][lane]] += entry[lane];
-          }
-        for (unsigned int p = 0; p < 6; ++p)
-          {
-            const Pack entry = mass_entry(b, lower_pairs[p][0], lower_pairs[p][1]);
-            for (unsigned int lane = 0; lane < n_lanes; ++lane)
-              M.lower[slots[b].lower[p][lane]] += entry[lane];
-          }
-      }
-    for (unsigned int node = 0; node < n_owned; ++node)
-      M.diagonal[node] += vertex_mass;
-  }
-
-
-  void
   Cells::add_nodal_mass(double *mass) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
@@ -496,72 +254,33 @@ namespace Supple
   }
 
 
-  double
-  Cells::round_off_square() const
-  {
-    constexpr double epsilon = 8. * std::numeric_limits<double>::epsilon();
-    Pack sum(0.);
-    for (const Batch &batch : batches)
-      {
-        const Pack stress = epsilon * batch.owned * batch.volume * (batch.lambda + 2. * batch.mu);
-        for (const auto &g : batch.gradients)
-          sum += stress * stress * (g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-      }
-    return stdx::reduce(sum);
-  }
-
-
-  CellSums
-  Cells::sums(const double *displacement, const double *velocity) const
-  {
-    CellSums sums;
-    add_deformation(displacement, sums);
-    if (velocity != nullptr)
-      {
-        add_motion(displacement, velocity, sums);
-        if (vertex_mass > 0.)
-          add_motion_of_vertices(displacement, velocity, sums);
-      }
-    if (section.axisymmetric())
-      {
-        sums.linear_momentum[0] = 0.;
-        sums.angular_momentum   = {{0., 0., 0.}};
-      }
-    return sums;
-  }
-
-
   void
-  Cells::add_deformation(const double *displacement, CellSums &sums) const
+  Cells::add_mass(const CellSlots &slots, SymmetricScalarMatrix &M) const
   {
-    Pack elastic(0.), inverted(0.);
-    Pack smallest(sums.min_volume_ratio), largest(sums.max_volume_ratio);
     for (std::size_t b = 0; b < batches.size(); ++b)
       {
-        const Batch &batch    = batches[b];
-        const Matrix3<Pack> F = deformation_gradient(b, displacement);
-        const Matrix3<Pack> e = strain(b, F);
-        const Pack tr         = trace(e);
-        elastic +=
-          batch.owned * batch.volume * (batch.mu * norm_square(e) + 0.5 * batch.lambda * tr * tr);
-
-        const Pack ratio   = determinant(F);
-        const auto counted = batch.owned > 0.;
-
-        stdx::where(counted && ratio < smallest, smallest) = ratio;
-        stdx::where(counted && ratio > largest, largest)   = ratio;
-        stdx::where(counted && !(ratio > 0.), inverted) += 1.;
+        for (unsigned int a = 0; a < 4; ++a)
+          {
+            const Pack entry = mass_entry(b, a, a);
+            for (unsigned int lane = 0; lane < n_lanes; ++lane)
+              M.diagonal[slots.diagonal(b)[a][lane]] += entry[lane];
+          }
+        for (unsigned int p = 0; p < 6; ++p)
+          {
+            const auto &[row, column] = CellSlots::lower_pairs[p];
+            const Pack entry          = mass_entry(b, row, column);
+            for (unsigned int lane = 0; lane < n_lanes; ++lane)
+              M.lower[slots.lower(b)[p][lane]] += entry[lane];
+          }
       }
-    sums.elastic += stdx::reduce(elastic);
-    sums.min_volume_ratio = stdx::hmin(smallest);
-    sums.max_volume_ratio = stdx::hmax(largest);
-    sums.inverted += static_cast<unsigned int>(stdx::reduce(inverted));
+    for (unsigned int node = 0; node < n_owned; ++node)
+      M.diagonal[node] += vertex_mass;
   }
 
 
   /** A cell's mass matrix times its velocities gives the momenta of its nodes. */
-  void
-  Cells::add_motion(const double *displacement, const double *velocity, CellSums &sums) const
+  MotionSums
+  Cells::motion(const double *displacement, const double *velocity) const
   {
     Pack kinetic(0.);
     std::array<Pack, 3> linear{{0., 0., 0.}}, angular{{0., 0., 0.}};
@@ -585,19 +304,28 @@ namespace Supple
               angular[i] += batch.owned * (x[a][i1] * p[a][i2] - x[a][i2] * p[a][i1]);
             }
       }
-    sums.kinetic += stdx::reduce(kinetic);
+    MotionSums sums;
+    sums.kinetic = stdx::reduce(kinetic);
     for (unsigned int i = 0; i < 3; ++i)
       {
-        sums.linear_momentum[i] += stdx::reduce(linear[i]);
-        sums.angular_momentum[i] += stdx::reduce(angular[i]);
+        sums.linear_momentum[i]  = stdx::reduce(linear[i]);
+        sums.angular_momentum[i] = stdx::reduce(angular[i]);
       }
+    if (vertex_mass > 0.)
+      add_motion_of_vertices(displacement, velocity, sums);
+    if (section.axisymmetric())
+      {
+        sums.linear_momentum[0] = 0.;
+        sums.angular_momentum   = {{0., 0., 0.}};
+      }
+    return sums;
   }
 
 
   void
   Cells::add_motion_of_vertices(const double *displacement,
                                 const double *velocity,
-                                CellSums &sums) const
+                                MotionSums &sums) const
   {
     for (std::size_t node = 0; node < n_owned; ++node)
       {
@@ -615,34 +343,32 @@ namespace Supple
       }
   }
 
-
-  std::vector<CellState>
-  Cells::states(const double *displacement) const
+  CellSlots::CellSlots(const Cells &cells, const SymmetricPattern &pattern)
   {
-    std::vector<CellState> states(n_cells);
-    for (std::size_t b = 0; b < batches.size(); ++b)
-      {
-        const Matrix3<Pack> F = deformation_gradient(b, displacement);
-
-        Matrix3<Pack> deviator = stress(batches[b], strain(b, F));
-        if (section.geometry == Geometry::plane_stress)
-          deviator(2, 2) = 0.;
-        const Pack mean = trace(deviator) / 3.;
-        for (unsigned int i = 0; i < 3; ++i)
-          deviator(i, i) -= mean;
-
-        const Pack von_mises = stdx::sqrt(1.5 * norm_square(deviator));
-        const Pack ratio     = determinant(F);
-        const Pack cosine    = 0.5 * (trace(rotation_of(b)) - 1.);
-        for (unsigned int lane = 0; lane < n_lanes && b * n_lanes + lane < n_cells; ++lane)
-          {
-            const double c             = std::min(1., std::max(-1., double(cosine[lane])));
-            states[b * n_lanes + lane] = {ratio[lane],
-                                          von_mises[lane],
-                                          std::acos(c) * 180. / M_PI,
-                                          -mean[lane]};
-          }
-      }
-    return states;
+    resize_in_huge_pages(places, cells.n_batches());
+    const std::vector<std::size_t> &chunk_starts = cells.chunk_starts();
+    std::size_t chunk                            = 0;
+    for (std::size_t b = 0; b < places.size(); ++b)
+      for (unsigned int lane = 0; lane < n_lanes; ++lane)
+        {
+          while (b >= chunk_starts[chunk + 1])
+            ++chunk;
+          const std::size_t spare = chunk / 2; // that of its thread
+          const bool empty        = b * n_lanes + lane >= cells.n_cells;
+          const auto node   = [&](const unsigned int a) { return cells.batch(b).nodes[a][lane]; };
+          const auto exists = [&](const unsigned int a) { return !empty && a < cells.n_nodes; };
+          for (unsigned int a = 0; a < 4; ++a)
+            places[b].diagonal[a][lane] =
+              exists(a) && node(a) < pattern.n_owned ? node(a) : pattern.n_owned + spare;
+          for (unsigned int p = 0; p < 6; ++p)
+            {
+              std::uint32_t &place = places[b].lower[p][lane];
+              place                = exists(lower_pairs[p][0])
+                                       ? pattern.position(node(lower_pairs[p][0]), node(lower_pairs[p][1]))
+                                       : pattern.n_entries();
+              if (place == pattern.n_entries())
+                place += spare;
+            }
+        }
   }
 } // namespace Supple

@@ -1,6 +1,7 @@
 #include <supple/mechanics/constraints.h>
 
 #include <supple/base/error.h>
+#include <supple/mechanics/selection.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -32,7 +33,10 @@ namespace Supple
   } // namespace
 
 
-  Constraints::Constraints(const Body &body, const Parameters &parameters)
+  Constraints::Constraints(const Body &body,
+                           const ConstraintParameters &parameters,
+                           const Motions &prescribed,
+                           const ParameterFile &scene)
     : body(body)
     , held(3 * body.n_local)
   {
@@ -42,24 +46,23 @@ namespace Supple
           if (nodes[node] && directions[i])
             held[3 * node + i] = true;
     };
-    const std::array<bool, 3> all           = {{true, true, true}};
-    const ConstraintParameters &constraints = parameters.constraints;
+    const std::array<bool, 3> all = {{true, true, true}};
 
-    for (const unsigned int id : constraints.clamped_boundaries)
-      hold(body.boundary_nodes(id, parameters.origin("Constraints/Clamped boundaries")), all);
-    if (!constraints.clamped_region.empty())
-      hold(body.region_nodes(constraints.clamped_region,
-                             parameters.origin("Constraints/Clamped region")),
+    for (const unsigned int id : parameters.clamped_boundaries)
+      hold(Selection(body).boundary_nodes(id, scene.origin("Constraints/Clamped boundaries")), all);
+    if (!parameters.clamped_region.empty())
+      hold(Selection(body).region_nodes(parameters.clamped_region,
+                                        scene.origin("Constraints/Clamped region")),
            all);
     for (unsigned int i = 0; i < 3; ++i)
-      for (const unsigned int id : constraints.sliding_boundaries[i])
-        hold(body.boundary_nodes(
-               id, parameters.origin(std::string("Constraints/Boundaries held along ") + "xyz"[i])),
+      for (const unsigned int id : parameters.sliding_boundaries[i])
+        hold(Selection(body).boundary_nodes(
+               id, scene.origin(std::string("Constraints/Boundaries held along ") + "xyz"[i])),
              {{i == 0, i == 1, i == 2}});
 
-    for (unsigned int m = 0; m < parameters.motions.size(); ++m)
-      if (!parameters.motions[m].of.empty())
-        add_motion(parameters.motions[m], Parameters::motion_section(m), parameters);
+    for (unsigned int m = 0; m < prescribed.size(); ++m)
+      if (!prescribed[m].of.empty())
+        add_motion(prescribed[m], motion_section(m), scene);
 
     complete();
   }
@@ -159,11 +162,11 @@ namespace Supple
   void
   Constraints::add_motion(const MotionParameters &motion,
                           const std::string &section,
-                          const Parameters &parameters)
+                          const ParameterFile &scene)
   {
     const auto nodes =
-      body.selected_nodes(Utilities::trim(motion.of), parameters.origin(section + "/Of"));
-    const std::string origin = parameters.origin(section + "/Displacement");
+      Selection(body).selected_nodes(Utilities::trim(motion.of), scene.origin(section + "/Of"));
+    const std::string origin = scene.origin(section + "/Displacement");
     const auto components    = Utilities::split_string_list(motion.displacement, ';');
     if (components.size() != 3)
       throw InputError(origin + ": found " + std::to_string(components.size()) +
@@ -190,7 +193,7 @@ namespace Supple
                            ": some of these vertices are on the axis and stay there; along "
                            "x their displacement must be 0 or free.");
         if (Utilities::MPI::max(n_twice, body.mesh.communicator) > 0)
-          throw InputError(parameters.origin(section + "/Of") +
+          throw InputError(scene.origin(section + "/Of") +
                            ": some of these vertices are held or moved already along " +
                            std::string(1, "xyz"[i]) + ".");
       }
@@ -204,7 +207,7 @@ namespace Supple
     for (unsigned int node = 0; node < body.n_owned; ++node)
       if (nodes[node])
         first = std::min(first, body.serial_vertex[node]);
-    return body.place_of_vertex(Utilities::MPI::min(first, body.mesh.communicator));
+    return Selection(body).place_of_vertex(Utilities::MPI::min(first, body.mesh.communicator));
   }
 
 

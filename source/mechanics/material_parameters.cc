@@ -1,6 +1,8 @@
+#include <supple/mechanics/material_parameters.h>
+
 #include <supple/base/error.h>
 #include <supple/input/entries.h>
-#include <supple/scene/parameters.h>
+#include <supple/mechanics/laws.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -15,26 +17,13 @@ namespace Supple
   MaterialParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Material");
-    add_choice(prm,
-               "Elastic constants",
-               constants,
-               {{"Young and Poisson", Constants::young_poisson}, {"Lame", Constants::lame}},
-               "Which pair of constants is used: Young modulus and Poisson ratio, or Lame lambda "
-               "and Lame mu.");
-    add(prm, "Young modulus", young, "Pa", Range::between(0, infinity), "Young's modulus E.");
-    add(prm, "Poisson ratio", poisson, "none", Range::between(-1, 0.5), "Poisson's ratio nu.");
     add(prm,
-        "Lame lambda",
-        lambda,
-        "Pa",
-        Range::finite(),
-        "Lame's first parameter; 3 lambda + 2 mu must be positive.");
-    add(prm,
-        "Lame mu",
-        mu,
-        "Pa",
-        Range::between(0, infinity),
-        "Lame's second parameter, the shear modulus.");
+        "Law",
+        law,
+        "none",
+        Range::one_of(names_of_laws()),
+        "The law by which stress follows from deformation.");
+    declare_constants(prm);
     add(prm,
         "Density",
         density,
@@ -73,6 +62,41 @@ namespace Supple
                "approximation for small strains, which loses volume at large ones but pushes the "
                "flattest cells back; without rotations (linear elasticity) it is always this one.");
     prm.leave_subsection();
+  }
+
+
+  void
+  MaterialParameters::declare_constants(ParameterHandler &prm)
+  {
+    add_choice(prm,
+               "Elastic constants",
+               constants,
+               {{"Young and Poisson", Constants::young_poisson}, {"Lame", Constants::lame}},
+               "Which pair of constants is used: Young modulus and Poisson ratio, or Lame lambda "
+               "and Lame mu.");
+    add(prm, "Young modulus", young, "Pa", Range::between(0, infinity), "Young's modulus E.");
+    add(prm, "Poisson ratio", poisson, "none", Range::between(-1, 0.5), "Poisson's ratio nu.");
+    add(prm,
+        "Lame lambda",
+        lambda,
+        "Pa",
+        Range::finite(),
+        "Lame's first parameter; 3 lambda + 2 mu must be positive.");
+    add(prm,
+        "Lame mu",
+        mu,
+        "Pa",
+        Range::between(0, infinity),
+        "Lame's second parameter, the shear modulus.");
+  }
+
+
+  void
+  MaterialParameters::check(const ParameterFile &scene) const
+  {
+    if (3. * preset().lambda + 2. * preset().mu <= 0.)
+      throw InputError(scene.origin("Material/Lame lambda") +
+                       ": 3 lambda + 2 mu must be positive, or the body gives way to pressure.");
   }
 
 
@@ -120,5 +144,66 @@ namespace Supple
           from_young_poisson(std::stod(numbers[0]), std::stod(numbers[1]), std::stod(numbers[2]));
       }
     return materials;
+  }
+
+
+  void
+  CorotationParameters::declare(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Corotation");
+    add_choice(
+      prm,
+      "Rotation",
+      rotation,
+      {{"none", RotationMethod::none},
+       {"gram-schmidt", RotationMethod::gram_schmidt},
+       {"polar", RotationMethod::polar}},
+      "How the rotation of a cell is taken from its deformation gradient. none is linear "
+      "elasticity, "
+      "right for small rotations only. polar is the nearest rotation. gram-schmidt is there for "
+      "comparison: its force has no energy and depends on the orientation of the axes.");
+    add(prm,
+        "Warp tolerance",
+        warp_tolerance,
+        "degrees",
+        Range::at_least(0),
+        "The matrix of a step keeps the stiffness of cells that have turned by no more than this "
+        "angle since it was taken; forces are always those of the rotations now. Where no cell has "
+        "turned by more, matrix, factor and multigrid stay as they are. 0: all cells, in each "
+        "step (doc/performance.md).");
+    prm.leave_subsection();
+  }
+
+
+  void
+  DampingParameters::declare(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Damping");
+    add(prm,
+        "Mass factor",
+        mass_factor,
+        "1/s",
+        Range::at_least(0),
+        "Rayleigh damping: a in D = a M + b K'.");
+    add(prm,
+        "Stiffness factor",
+        stiffness_factor,
+        "s",
+        Range::at_least(0),
+        "Rayleigh damping: b in D = a M + b K'.");
+    add(prm,
+        "Viscous",
+        viscous,
+        "N s/m",
+        Range::at_least(0),
+        "Damping coefficient of each vertex against a resting world.");
+    prm.leave_subsection();
+  }
+
+
+  bool
+  DampingParameters::any() const
+  {
+    return mass_factor > 0. || stiffness_factor > 0. || viscous > 0.;
   }
 } // namespace Supple

@@ -23,13 +23,13 @@ namespace Supple
     change.reinit(partitioner);
 
     const std::vector<double> rest(3 * (1 + *std::max_element(node.begin(), node.end())));
-    cells.volume_changes(measure, rest.data(), changes);
+    find_volume_changes(cells, {}, measure, rest.data(), changes);
     for (std::size_t c = 0; c < list.size(); ++c)
       {
         bulk[patch_of[c]] = list[c].bulk;
         volume[patch_of[c]] += changes[c].volume;
       }
-    update(rest.data());
+    update({}, rest.data());
   }
 
 
@@ -70,9 +70,9 @@ namespace Supple
 
 
   void
-  VolumetricPatches::update(const double *displacement)
+  VolumetricPatches::update(const CellRotations::List &rotations, const double *displacement)
   {
-    cells.volume_changes(measure, displacement, changes);
+    find_volume_changes(cells, rotations, measure, displacement, changes);
     std::fill(gradient.begin(), gradient.end(), std::array<double, 3>{});
     std::fill(constant.begin(), constant.end(), 0.);
     for (std::size_t c = 0; c < changes.size(); ++c)
@@ -114,11 +114,11 @@ namespace Supple
 
 
   void
-  VolumetricPatches::add_internal_force(const double *displacement, double *force) const
+  VolumetricPatches::subtract_force(const double *displacement, double *force) const
   {
     reduce(change, displacement);
     for (unsigned int p = 0; p < n_own(); ++p)
-      change.local_element(p) = stiffness(p) * (change.local_element(p) + constant[p]);
+      change.local_element(p) = -stiffness(p) * (change.local_element(p) + constant[p]);
     const GhostValues stress(change);
     expand(force, stress.data());
   }

@@ -176,6 +176,7 @@ namespace Supple
           cell.nodes[a] = node_of[vertices[std::min(a, dimension)]];
         cell.material_id = part.mesh.materials[c];
         cell.index       = c;
+        cell.serial_cell = part.serial_cell[c];
         cell.patch       = part.mesh.patches.empty() ? 0 : part.mesh.patches[c];
         cell.owned       = part.owner[c] == rank;
         cells.push_back(cell);

@@ -1,13 +1,12 @@
 #include <supple/mesh/mesh.h>
-#include <supple/mesh/mesh_generators.h>
-#include <supple/mesh/mesh_reader.h>
 
 #include <supple/base/error.h>
 #include <supple/base/expression.h>
 #include <supple/base/first_process.h>
+#include <supple/mesh/mesh_generators.h>
+#include <supple/mesh/mesh_reader.h>
 #include <supple/mesh/partition.h>
 #include <supple/mesh/patches.h>
-#include <supple/scene/plane_check.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -57,11 +56,9 @@ namespace Supple
 
     /** Boundary ids by expressions: those that the user gives are stronger. */
     void
-    assign_boundary_regions(SerialMesh &mesh, const Parameters &parameters)
+    assign_boundary_regions(SerialMesh &mesh, const std::string &regions, const std::string &origin)
     {
-      const std::string origin = parameters.origin("Mesh/Boundary regions");
-      for (const std::string &item :
-           Utilities::split_string_list(parameters.mesh.boundary_regions, ';'))
+      for (const std::string &item : Utilities::split_string_list(regions, ';'))
         {
           if (item.empty())
             continue;
@@ -94,23 +91,22 @@ namespace Supple
 
 
     SerialMesh
-    generate_or_read(const Parameters &parameters)
+    generate_or_read(const MeshParameters &parameters, const ParameterFile &scene)
     {
-      switch (parameters.mesh.shape)
+      switch (parameters.shape)
         {
           case MeshParameters::Shape::box:
-            return box_mesh(parameters.mesh);
+            return box_mesh(parameters);
           case MeshParameters::Shape::hollow_cylinder:
-            return hollow_cylinder_mesh(parameters.mesh);
+            return hollow_cylinder_mesh(parameters);
           case MeshParameters::Shape::rectangle:
-            return rectangle_mesh(parameters.mesh);
+            return rectangle_mesh(parameters);
           default:
             {
-              const auto file =
-                std::filesystem::path(parameters.scene_folder) / parameters.mesh.file;
-              SerialMesh mesh = read_mesh(file.string(), parameters.origin("Mesh/File"));
+              const auto file = std::filesystem::path(scene.folder()) / parameters.file;
+              SerialMesh mesh = read_mesh(file.string(), scene.origin("Mesh/File"));
               for (auto &vertex : mesh.vertices)
-                vertex *= parameters.mesh.scale;
+                vertex *= parameters.scale;
               return mesh;
             }
         }
@@ -142,10 +138,9 @@ namespace Supple
     /** Puts the vertices where the user wants them. A map may turn all cells around, as a mirror
      * does, but not some: it folds the body then. */
     void
-    apply_map(SerialMesh &mesh, const Parameters &parameters)
+    apply_map(SerialMesh &mesh, const std::string &expressions, const std::string &origin)
     {
-      const std::string origin = parameters.origin("Mesh/Map");
-      const Expression map(parameters.mesh.map, 3, origin);
+      const Expression map(expressions, 3, origin);
       if (map.depends_on_time())
         throw InputError(origin + ": the body at rest does not depend on t.");
 
@@ -166,57 +161,48 @@ namespace Supple
   } // namespace
 
 
-  SerialMesh
-  make_serial_mesh(const Parameters &parameters)
-  {
-    SerialMesh mesh = generate_or_read(parameters);
-    if (!parameters.mesh.map.empty())
-      apply_map(mesh, parameters);
-    return mesh;
-  }
-
-
-  Mesh::Mesh(const Parameters &parameters, const MPI_Comm communicator)
+  Mesh::Mesh(const MeshParameters &parameters,
+             const PlaneParameters &plane,
+             const bool with_patches,
+             const ParameterFile &scene,
+             const MPI_Comm communicator)
     : communicator(communicator)
   {
     SerialMesh whole;
     std::vector<unsigned int> owner;
     on_first_process(communicator, [&] {
-      whole = make_whole(parameters);
+      whole = make_whole(parameters, plane, with_patches, scene);
       owner = partition(whole, Utilities::MPI::n_mpi_processes(communicator));
     });
     share();
     parts = std::make_unique<DistributedMesh>(
       distribute(std::move(whole), std::move(owner), communicator), communicator);
     if (parts->dimension == 2)
-      section = parameters.plane.section;
+      section = plane.section;
   }
 
 
   SerialMesh
-  Mesh::make_whole(const Parameters &parameters)
+  Mesh::make_whole(const MeshParameters &parameters,
+                   const PlaneParameters &plane,
+                   const bool with_patches,
+                   const ParameterFile &scene)
   {
-    SerialMesh mesh = make_serial_mesh(parameters);
+    const bool from_file = parameters.shape == MeshParameters::Shape::file;
+    SerialMesh mesh      = generate_or_read(parameters, scene);
+    if (!parameters.map.empty())
+      apply_map(mesh, parameters.map, scene.origin("Mesh/Map"));
     if (mesh.dimension == 2)
-      section = parameters.plane.section;
-    check_directions(parameters, section);
-    report = check_mesh(mesh,
-                        parameters.origin(parameters.mesh.shape == MeshParameters::Shape::file
-                                            ? "Mesh/File"
-                                            : "Mesh/Shape"));
+      section = plane.section;
+    report = check_mesh(mesh, scene.origin(from_file ? "Mesh/File" : "Mesh/Shape"));
     if (section.axisymmetric())
-      fit_to_axis(mesh, parameters);
-    assign_boundary_regions(mesh, parameters);
+      fit_to_axis(mesh, scene.origin(from_file ? "Mesh/File" : "Mesh/Rectangle origin"));
+    assign_boundary_regions(mesh,
+                            parameters.boundary_regions,
+                            scene.origin("Mesh/Boundary regions"));
     measure(mesh);
-
-    if (parameters.material.cure == MaterialParameters::LockingCure::patches)
-      {
-        if (section.geometry == Geometry::plane_stress)
-          throw InputError(parameters.origin("Material/Volumetric locking cure") +
-                           ": in plane stress nothing locks, and there are no patches; it must be "
-                           "none.");
-        mesh.patches = make_patches(mesh);
-      }
+    if (with_patches)
+      mesh.patches = make_patches(mesh);
     return mesh;
   }
 

@@ -297,4 +297,29 @@ namespace Supple
            " pieces that do not hang together.");
     return report;
   }
+
+
+  void
+  fit_to_axis(SerialMesh &mesh, const std::string &origin)
+  {
+    double width = 0., smallest = 0.;
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      for (const unsigned int v : mesh.cell_vertices(c))
+        {
+          width    = std::max(width, mesh.vertices[v][0]);
+          smallest = std::min(smallest, mesh.vertices[v][0]);
+        }
+    if (smallest < -1e-9 * width || width <= 0.)
+      {
+        std::ostringstream text;
+        text << origin
+             << ": the body is axisymmetric, and x is the distance from the axis; it can't be "
+                "negative. The smallest one is "
+             << smallest << " m.";
+        throw InputError(text.str());
+      }
+    for (auto &vertex : mesh.vertices)
+      if (std::abs(vertex[0]) <= 1e-9 * width)
+        vertex[0] = 0.;
+  }
 } // namespace Supple

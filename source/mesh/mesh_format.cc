@@ -1,5 +1,6 @@
-#include <supple/base/error.h>
 #include <supple/mesh/mesh_format.h>
+
+#include <supple/base/error.h>
 
 #include <deal.II/base/utilities.h>
 

@@ -1,6 +1,7 @@
+#include <supple/mesh/mesh_parameters.h>
+
 #include <supple/base/error.h>
 #include <supple/input/entries.h>
-#include <supple/scene/parameters.h>
 
 #include <cmath>
 #include <numeric>
@@ -240,11 +241,11 @@ namespace Supple
 
 
   void
-  MeshParameters::check_layers(const Parameters &parameters) const
+  MeshParameters::check_layers(const ParameterFile &scene) const
   {
     if (material_layers.empty())
       return;
-    const std::string origin = parameters.origin("Mesh/Layers");
+    const std::string origin = scene.origin("Mesh/Layers");
     if (shape != Shape::box && shape != Shape::rectangle)
       throw InputError(origin + ": only a box and a rectangle have layers; with other shapes " +
                        "leave it empty.");
@@ -273,11 +274,11 @@ namespace Supple
 
 
   void
-  MeshParameters::check_layer_rows(const Parameters &parameters) const
+  MeshParameters::check_layer_rows(const ParameterFile &scene) const
   {
     if (layer_rows.empty())
       return;
-    const std::string origin = parameters.origin("Mesh/Layer rows");
+    const std::string origin = scene.origin("Mesh/Layer rows");
     if (layer_rows.size() != material_layers.size())
       throw InputError(origin + ": found " + std::to_string(layer_rows.size()) + " number(s) for " +
                        std::to_string(material_layers.size()) + " layer(s) (Mesh/Layers); there " +
@@ -291,38 +292,38 @@ namespace Supple
 
 
   void
-  MeshParameters::check_cylinder(const Parameters &parameters) const
+  MeshParameters::check_cylinder(const ParameterFile &scene) const
   {
     const double n_wedges = double(sectors) * rings * layers;
     if (n_wedges > 2e7)
-      throw InputError(parameters.origin("Mesh/Cylinder rings") +
+      throw InputError(scene.origin("Mesh/Cylinder rings") +
                        ": there can be 2e7 vertices at most.");
     if (inner_radius >= outer_radius)
-      throw InputError(parameters.origin("Mesh/Cylinder inner radius") +
+      throw InputError(scene.origin("Mesh/Cylinder inner radius") +
                        ": it must be smaller than the outer radius.");
     if (inner_radius > outer_radius * std::cos(dealii::numbers::PI / sectors))
       throw InputError(
-        parameters.origin("Mesh/Cylinder sectors") +
+        scene.origin("Mesh/Cylinder sectors") +
         ": so few that the straight edges of the outer wall would cut through the inner one. "
         "Take more sectors or a thicker wall.");
   }
 
 
   void
-  MeshParameters::check(const Parameters &parameters) const
+  MeshParameters::check(const ParameterFile &scene) const
   {
     const double n_cubes = double(cubes[0]) * cubes[1] * cubes[2];
     if (shape == Shape::box && n_cubes > 2e7)
-      throw InputError(parameters.origin("Mesh/Box cubes") + ": there can be 2e7 cubes at most.");
+      throw InputError(scene.origin("Mesh/Box cubes") + ": there can be 2e7 cubes at most.");
     if (shape == Shape::rectangle && double(squares[0]) * squares[1] > 2e7)
-      throw InputError(parameters.origin("Mesh/Rectangle squares") +
+      throw InputError(scene.origin("Mesh/Rectangle squares") +
                        ": there can be 2e7 squares at most.");
     if (shape == Shape::hollow_cylinder)
-      check_cylinder(parameters);
+      check_cylinder(scene);
     if (shape == Shape::file && file.empty())
-      throw InputError(parameters.origin("Mesh/File") + ": Shape = file needs a mesh file.");
-    check_layers(parameters);
-    check_layer_rows(parameters);
+      throw InputError(scene.origin("Mesh/File") + ": Shape = file needs a mesh file.");
+    check_layers(scene);
+    check_layer_rows(scene);
   }
 
 
@@ -353,10 +354,10 @@ namespace Supple
 
 
   void
-  PlaneParameters::check(const Parameters &parameters) const
+  PlaneParameters::check(const ParameterFile &scene) const
   {
     if (section.axisymmetric() && section.thickness != 1.)
-      throw InputError(parameters.origin("Plane/Thickness") +
+      throw InputError(scene.origin("Plane/Thickness") +
                        ": an axisymmetric body goes all the way round; leave the thickness at 1.");
   }
 } // namespace Supple

@@ -1,6 +1,7 @@
+#include <supple/mesh/mesh_reader.h>
+
 #include <supple/base/error.h>
 #include <supple/mesh/mesh_format.h>
-#include <supple/mesh/mesh_reader.h>
 #include <supple/mesh/separate_process.h>
 #include <supple/mesh/serial_mesh.h>
 

@@ -1,5 +1,6 @@
-#include <supple/base/error.h>
 #include <supple/mesh/separate_process.h>
+
+#include <supple/base/error.h>
 
 #include <cerrno>
 #include <csignal>

@@ -1,5 +1,6 @@
-#include <supple/base/memory.h>
 #include <supple/multigrid/block_smoother.h>
+
+#include <supple/base/memory.h>
 
 #include <Eigen/Dense>
 

@@ -18,8 +18,9 @@ namespace Supple
   {
     std::sort(ghosts.begin(), ghosts.end());
     ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
-    ghosts.erase(
-      std::remove_if(ghosts.begin(), ghosts.end(), [this](const auto node) { return owns(node); }),
-      ghosts.end());
+    ghosts.erase(std::remove_if(ghosts.begin(),
+                                ghosts.end(),
+                                [this](const auto node) { return owns(node); }),
+                 ghosts.end());
   }
 } // namespace Supple

@@ -1,5 +1,6 @@
-#include <supple/base/memory.h>
 #include <supple/multigrid/coarsening.h>
+
+#include <supple/base/memory.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,7 +1,6 @@
 #include <supple/observe/diagnostics.h>
 
 #include <supple/mechanics/rotation.h>
-#include <supple/time/energy_guard.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -13,76 +12,6 @@
 namespace Supple
 {
   using namespace dealii;
-
-  std::vector<std::string>
-  Measurement::column_names()
-  {
-    return {"step",
-            "time",
-            "dt",
-            "kinetic",
-            "elastic",
-            "potential",
-            "dissipated",
-            "total",
-            "work",
-            "px",
-            "py",
-            "pz",
-            "lx",
-            "ly",
-            "lz",
-            "min_volume_ratio",
-            "max_volume_ratio",
-            "inverted",
-            "newton_iterations",
-            "linear_iterations",
-            "seconds"};
-  }
-
-
-  std::vector<double>
-  Measurement::row() const
-  {
-    const auto &p = linear_momentum, &l = angular_momentum;
-    return {double(step),
-            time,
-            dt,
-            kinetic,
-            elastic,
-            potential,
-            dissipated,
-            total,
-            work,
-            p[0],
-            p[1],
-            p[2],
-            l[0],
-            l[1],
-            l[2],
-            min_volume_ratio,
-            max_volume_ratio,
-            double(inverted),
-            double(newton_iterations),
-            double(linear_iterations),
-            seconds};
-  }
-
-
-  std::string
-  Measurement::not_finite() const
-  {
-    const std::vector<double> values = row();
-    if (std::all_of(values.begin(), values.end(), [](const double x) { return std::isfinite(x); }))
-      return ""; // as in nearly all steps
-    const std::vector<std::string> names = column_names();
-    std::string list;
-    for (unsigned int i = 0; i < values.size(); ++i)
-      if (!std::isfinite(values[i]))
-        list += (list.empty() ? "" : ", ") + names[i];
-    return list;
-  }
-
 
   double
   distance_from_shape(const Body &body, const Vector &displacement)
@@ -133,9 +62,11 @@ namespace Supple
   }
 
 
-  Diagnostics::Diagnostics(const Body &body, const Loads &loads, const bool stationary)
-    : body(body)
-    , loads(loads)
+  Diagnostics::Diagnostics(const Configuration &configuration,
+                           const Forces &forces,
+                           const bool stationary)
+    : configuration(configuration)
+    , forces(forces)
     , stationary(stationary)
   {
   }
@@ -192,29 +123,35 @@ namespace Supple
 
 
   Measurement
-  Diagnostics::measure_body(const State &state, const double load_factor) const
+  Diagnostics::measure_body(const double time) const
   {
-    const bool moving = state.n_blocks() > 1;
-    const GhostValues displacement(state.block(0));
-    const GhostValues velocity(state.block(moving ? 1 : 0));
-    const CellSums local = body.sums(displacement.data(), moving ? velocity.data() : nullptr);
+    // A static scene has a part of the loads at time 1.
+    Deformation deformation;
+    const Energies energies = forces.energies(configuration, stationary ? 1. : time, deformation);
 
-    const MPI_Comm communicator = body.mesh.communicator;
-    std::vector<double> sums    = {local.kinetic, local.elastic, double(local.inverted)};
-    sums.insert(sums.end(), local.linear_momentum.begin(), local.linear_momentum.end());
-    sums.insert(sums.end(), local.angular_momentum.begin(), local.angular_momentum.end());
+    MotionSums motion;
+    if (configuration.state.has_velocity())
+      {
+        const GhostValues displacement(configuration.displacement());
+        const GhostValues velocity(configuration.velocity());
+        motion = configuration.body.cells->motion(displacement.data(), velocity.data());
+      }
+    const MPI_Comm communicator = configuration.body.mesh.communicator;
+    std::vector<double> sums    = {motion.kinetic, double(deformation.inverted)};
+    sums.insert(sums.end(), motion.linear_momentum.begin(), motion.linear_momentum.end());
+    sums.insert(sums.end(), motion.angular_momentum.begin(), motion.angular_momentum.end());
     std::vector<double> global(sums.size());
     Utilities::MPI::sum(sums, communicator, global);
 
     Measurement result;
     result.kinetic          = global[0];
-    result.elastic          = global[1];
-    result.inverted         = static_cast<unsigned int>(global[2]);
-    result.linear_momentum  = {{global[3], global[4], global[5]}};
-    result.angular_momentum = {{global[6], global[7], global[8]}};
-    result.min_volume_ratio = Utilities::MPI::min(local.min_volume_ratio, communicator);
-    result.max_volume_ratio = Utilities::MPI::max(local.max_volume_ratio, communicator);
-    result.potential        = load_factor * loads.potential(state.block(0));
+    result.inverted         = static_cast<unsigned int>(global[1]);
+    result.linear_momentum  = {{global[2], global[3], global[4]}};
+    result.angular_momentum = {{global[5], global[6], global[7]}};
+    result.elastic          = energies.elastic;
+    result.potential        = (stationary ? time : 1.) * energies.potential;
+    result.min_volume_ratio = Utilities::MPI::min(deformation.min_volume_ratio, communicator);
+    result.max_volume_ratio = Utilities::MPI::max(deformation.max_volume_ratio, communicator);
     result.total            = result.kinetic + result.elastic + result.potential;
     return result;
   }
@@ -224,10 +161,9 @@ namespace Supple
   Diagnostics::measure(const unsigned int step,
                        const double time,
                        const double seconds,
-                       const State &state,
                        const StepReport &report)
   {
-    Measurement result       = measure_body(state, stationary ? time : 1.);
+    Measurement result       = measure_body(time);
     result.step              = step;
     result.time              = time;
     result.dt                = report.dt;
@@ -240,6 +176,8 @@ namespace Supple
       result.dissipated += *report.expended - (result.elastic - elastic);
     else if (!first && !stationary)
       result.dissipated += report.load_work - (result.total - total);
+    else if (!first)
+      result.dissipated += forces.dissipated(configuration, 1.);
     result.work = work + report.load_work;
     if (!result.not_finite().empty())
       {

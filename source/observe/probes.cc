@@ -1,6 +1,8 @@
 #include <supple/observe/probes.h>
 
 #include <supple/base/error.h>
+#include <supple/input/entries.h>
+#include <supple/mechanics/selection.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -12,28 +14,29 @@ namespace Supple
 {
   using namespace dealii;
 
-  Probes::Probes(const Body &body, const Parameters &parameters)
+  Probes::Probes(const Body &body,
+                 const ProbeParameters &parameters,
+                 const Motions &motions,
+                 const ParameterFile &scene)
     : body(body)
   {
-    const ProbeParameters &wanted = parameters.probes;
+    for (unsigned int m = 0; m < motions.size(); ++m)
+      if (!motions[m].of.empty())
+        add_motion(motions[m].of, m, scene);
 
-    for (unsigned int m = 0; m < parameters.motions.size(); ++m)
-      if (!parameters.motions[m].of.empty())
-        add_motion(parameters.motions[m].of, m, parameters);
-
-    const std::string points = parameters.origin("Probes/Points");
-    for (const auto &[name, text] : named_list(wanted.points, points))
+    const std::string points = scene.origin("Probes/Points");
+    for (const auto &[name, text] : named_list(parameters.points, points))
       add_point(name, text, points);
 
-    const std::string boundaries = parameters.origin("Probes/Boundaries");
-    for (const auto &[name, text] : named_list(wanted.boundaries, boundaries))
+    const std::string boundaries = scene.origin("Probes/Boundaries");
+    for (const auto &[name, text] : named_list(parameters.boundaries, boundaries))
       add_nodes(name,
                 "boundary " + text,
-                body.boundary_nodes(boundary_id(text, boundaries), boundaries));
+                Selection(body).boundary_nodes(boundary_id(text, boundaries), boundaries));
 
-    const std::string regions = parameters.origin("Probes/Regions");
-    for (const auto &[name, text] : named_list(wanted.regions, regions))
-      add_nodes(name, "region " + text, body.region_nodes(text, regions));
+    const std::string regions = scene.origin("Probes/Regions");
+    for (const auto &[name, text] : named_list(parameters.regions, regions))
+      add_nodes(name, "region " + text, Selection(body).region_nodes(text, regions));
 
     for (const Probe &probe : probes)
       for (const Probe &other : probes)
@@ -44,13 +47,13 @@ namespace Supple
 
 
   void
-  Probes::add_motion(const std::string &of, const unsigned int motion, const Parameters &parameters)
+  Probes::add_motion(const std::string &of, const unsigned int motion, const ParameterFile &scene)
   {
-    const std::string origin = parameters.origin(Parameters::motion_section(motion) + "/Of");
+    const std::string origin = scene.origin(motion_section(motion) + "/Of");
     const std::string name   = "motion" + (motion == 0 ? "" : std::to_string(motion + 1));
     const std::string text   = Utilities::trim(of);
     const std::string point  = text.rfind("nearest to ", 0) == 0 ? text.substr(11) : "";
-    const auto nodes         = body.selected_nodes(text, origin);
+    const auto nodes         = Selection(body).selected_nodes(text, origin);
     if (!point.empty() || text.rfind("vertex ", 0) == 0)
       add_point(name, point.empty() ? text : point, origin);
     else
@@ -64,8 +67,8 @@ namespace Supple
     if (text.rfind("vertex ", 0) == 0)
       {
         add(name,
-            body.selected_nodes(text, origin),
-            body.vertex_in_words(Utilities::string_to_int(text.substr(7))));
+            Selection(body).selected_nodes(text, origin),
+            Selection(body).vertex_in_words(Utilities::string_to_int(text.substr(7))));
         return;
       }
     Point<3> point;
@@ -84,12 +87,12 @@ namespace Supple
       }
 
     constexpr double margin       = 0.01; // of the box's sides
-    const auto [vertex, distance] = body.nearest_vertex(point);
+    const auto [vertex, distance] = Selection(body).nearest_vertex(point);
     std::vector<bool> nodes(body.n_local);
     for (unsigned int node = 0; node < body.n_local; ++node)
       nodes[node] = body.serial_vertex[node] == vertex;
     std::ostringstream description;
-    description << body.vertex_in_words(vertex) << ", " << distance
+    description << Selection(body).vertex_in_words(vertex) << ", " << distance
                 << " m from the point asked for";
     add(name, nodes, description.str());
     if (!body.mesh.bounding_box.point_inside(point, margin))
@@ -140,15 +143,15 @@ namespace Supple
   Probes::values(const State &state, const Vector &reactions) const
   {
     std::vector<double> local(9 * probes.size());
-    const bool moving = state.n_blocks() > 1;
+    const bool moving = state.has_velocity();
     for (std::size_t p = 0; p < probes.size(); ++p)
       for (const unsigned int node : probes[p].nodes)
         for (unsigned int i = 0; i < 3; ++i)
           {
             const unsigned int dof = 3 * node + i;
-            local[9 * p + i] += state.block(0).local_element(dof) / probes[p].n_nodes;
+            local[9 * p + i] += state.displacement.local_element(dof) / probes[p].n_nodes;
             if (moving)
-              local[9 * p + 3 + i] += state.block(1).local_element(dof) / probes[p].n_nodes;
+              local[9 * p + 3 + i] += state.velocity.local_element(dof) / probes[p].n_nodes;
             local[9 * p + 6 + i] += reactions.local_element(dof);
           }
     std::vector<double> values(local.size());

@@ -1,10 +1,10 @@
 #include <supple/observe/profiles.h>
 
 #include <supple/base/error.h>
+#include <supple/input/entries.h>
+#include <supple/mechanics/selection.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,20 +13,31 @@ namespace Supple
 {
   using namespace dealii;
 
-  Profiles::Profiles(const Body &body, const Parameters &parameters)
+  Profiles::Profiles(const Body &body,
+                     const ProbeParameters &parameters,
+                     const ParameterFile &scene)
     : body(body)
-    , center(parameters.probes.profile_center)
-    , every(parameters.probes.profile_every)
+    , center(parameters.profile_center)
   {
-    const std::string origin = parameters.origin("Probes/Profiles");
-    for (const auto &[name, text] : named_list(parameters.probes.profiles, origin))
+    const std::string origin = scene.origin("Probes/Profiles");
+    for (const auto &[name, text] : named_list(parameters.profiles, origin))
       {
-        const auto on_boundary = body.boundary_nodes(boundary_id(text, origin), origin);
-        profiles.push_back({name, {}, 0, nullptr});
+        const auto on_boundary = Selection(body).boundary_nodes(boundary_id(text, origin), origin);
+        profiles.push_back({name, {}});
         for (unsigned int node = 0; node < body.n_owned; ++node)
           if (on_boundary[node])
             profiles.back().nodes.push_back(node);
       }
+  }
+
+
+  std::vector<std::string>
+  Profiles::names() const
+  {
+    std::vector<std::string> list;
+    for (const Profile &profile : profiles)
+      list.push_back(profile.name);
+    return list;
   }
 
 
@@ -89,57 +100,5 @@ namespace Supple
         row.insert(row.begin(), step);
       }
     return sorted;
-  }
-
-
-  void
-  Profiles::open(const std::string &folder, const bool resumed)
-  {
-    for (Profile &profile : profiles)
-      {
-        const std::string file = folder + "/profile_" + profile.name + ".csv";
-        profile.file           = resumed ? std::make_unique<CsvFile>(file, profile.n_rows)
-                                         : std::make_unique<CsvFile>(file, column_names());
-      }
-  }
-
-
-  nlohmann::json
-  Profiles::save() const
-  {
-    std::vector<unsigned long> n_rows;
-    for (const Profile &profile : profiles)
-      n_rows.push_back(profile.n_rows);
-    return {{"rows", n_rows}, {"written", written}, {"step", last_written_step}};
-  }
-
-
-  void
-  Profiles::load(const nlohmann::json &saved)
-  {
-    for (unsigned int p = 0; p < profiles.size(); ++p)
-      profiles[p].n_rows = saved.at("rows").at(p);
-    written           = saved.at("written");
-    last_written_step = saved.at("step");
-  }
-
-
-  void
-  Profiles::write(const unsigned int step,
-                  const double time,
-                  const Vector &displacement,
-                  const bool always)
-  {
-    if ((written && step == last_written_step) || !(always || step % every == 0))
-      return;
-    for (unsigned int p = 0; p < profiles.size(); ++p)
-      {
-        const auto all = rows(p, step, time, displacement);
-        profiles[p].n_rows += all.size();
-        if (profiles[p].file)
-          profiles[p].file->write_rows(all);
-      }
-    written           = true;
-    last_written_step = step;
   }
 } // namespace Supple

@@ -1,7 +1,8 @@
+#include <supple/output/checkpoint.h>
+
 #include <supple/base/csv_file.h>
 #include <supple/base/error.h>
 #include <supple/base/files.h>
-#include <supple/output/checkpoint.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -65,20 +66,32 @@ namespace Supple
   } // namespace
 
 
-  Checkpoint::Checkpoint(const Body &body, const Parameters &parameters, const std::string &folder)
+  Checkpoint::Checkpoint(const Body &body,
+                         const CheckpointParameters &wanted,
+                         const std::string &scene,
+                         const bool dynamic,
+                         const std::string &folder)
     : body(body)
-    , parameters(parameters)
-    , file(folder + "/checkpoint.cbor")
-    , previous_file(folder + "/checkpoint.previous.cbor")
+    , wanted(wanted)
+    , scene(scene)
+    , dynamic(dynamic)
+    , file(folder + "/" + files()[0])
+    , previous_file(folder + "/" + files()[1])
     , last_time(std::chrono::steady_clock::now())
   {
+  }
+
+
+  std::vector<std::string>
+  Checkpoint::files()
+  {
+    return {"checkpoint.cbor", "checkpoint.previous.cbor"};
   }
 
 
   bool
   Checkpoint::due(const unsigned int step) const
   {
-    const CheckpointParameters &wanted = parameters.checkpoint;
     if (wanted.every > 0 && step - last_step >= wanted.every)
       return true;
     if (wanted.minutes == 0.)
@@ -92,11 +105,9 @@ namespace Supple
   std::string
   Checkpoint::identity() const
   {
-    std::ostringstream used, kept;
-    parameters.print(used);
-    std::istringstream lines(used.str());
+    std::ostringstream kept;
+    std::istringstream lines(scene);
     std::string line, section;
-    const bool dynamic = parameters.time.problem == TimeParameters::Problem::dynamic;
     while (std::getline(lines, line))
       {
         if (line.rfind("subsection ", 0) == 0)

@@ -1,5 +1,6 @@
-#include <supple/base/error.h>
 #include <supple/output/film.h>
+
+#include <supple/base/error.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -97,11 +98,18 @@ namespace Supple
 
   Film::Film(const Body &body, const std::string &folder)
     : body(body)
-    , file(folder + "/report.frames")
+    , file(folder + "/" + file_name())
     , root(Utilities::MPI::this_mpi_process(body.mesh.communicator) == 0)
   {
     find_surface();
     gather_surface();
+  }
+
+
+  std::string
+  Film::file_name()
+  {
+    return "report.frames";
   }
 
 
@@ -240,23 +248,15 @@ namespace Supple
   void
   Film::write(const Drawing &drawing)
   {
-    const auto named = [](const auto &list, const std::string &name) -> const auto &
-    {
-      return std::find_if(list.begin(),
-                          list.end(),
-                          [&](const auto &entry) { return entry.first == name; })
-        ->second;
-    };
-    const Vector &displacement = *named(drawing.of_nodes, "displacement");
     std::vector<float> nodal;
     for (const unsigned int node : own_nodes)
       for (unsigned int d = 0; d < 3; ++d)
-        nodal.push_back(displacement.local_element(3 * node + d));
+        nodal.push_back(drawing.displacement.local_element(3 * node + d));
     std::vector<float> ratios, stresses;
     for (const Triangle &triangle : own_triangles)
       {
-        ratios.push_back(named(drawing.of_cells, "volume_ratio")[triangle.cell_index]);
-        stresses.push_back(named(drawing.of_cells, "von_mises_stress")[triangle.cell_index]);
+        ratios.push_back(drawing.cells.volume_ratio[triangle.cell_index]);
+        stresses.push_back(drawing.cells.von_mises_stress[triangle.cell_index]);
       }
     nodal    = gathered(nodal, body.mesh.communicator);
     ratios   = gathered(ratios, body.mesh.communicator);

@@ -1,7 +1,6 @@
-#include <supple/base/files.h>
 #include <supple/output/frames.h>
 
-#include <supple/base/csv_file.h>
+#include <supple/base/files.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
@@ -17,14 +16,26 @@ namespace Supple
 {
   using namespace dealii;
 
-  Frames::Frames(const Body &body, const OutputParameters &parameters, const std::string &folder)
-    : body(body)
+  Frames::Frames(const Configuration &configuration,
+                 const ElasticForce &elastic,
+                 const OutputParameters &parameters,
+                 const std::string &folder)
+    : configuration(configuration)
+    , elastic(elastic)
+    , body(configuration.body)
     , parameters(parameters)
     , folder(folder)
   {
     body.initialize(last_displacement);
     if (parameters.report)
       film = std::make_unique<Film>(body, folder);
+  }
+
+
+  std::vector<std::string>
+  Frames::files()
+  {
+    return {"solution.pvd", "solution/frame_*", Film::file_name()};
   }
 
 
@@ -72,7 +83,7 @@ namespace Supple
 
 
   bool
-  Frames::due(const State &state, const Measurement &now) const
+  Frames::due(const Measurement &now) const
   {
     if (records.empty())
       return true;
@@ -92,7 +103,7 @@ namespace Supple
         case OutputParameters::Frames::adaptive:
           return (parameters.longest_interval > 0. &&
                   since_last >= parameters.longest_interval * (1. - 1e-12)) ||
-                 volume_has_changed(now) || has_moved(state.block(0));
+                 volume_has_changed(now) || has_moved(configuration.displacement());
         default:
           return false;
       }
@@ -100,29 +111,45 @@ namespace Supple
 
 
   bool
-  Frames::can_hold(const State &state) const
+  Frames::is_written(const unsigned int step) const
   {
-    const auto finite = [](const float value) { return std::isfinite(value); };
-    for (unsigned int b = 0; b < state.n_blocks(); ++b)
-      state.block(b).update_ghost_values(); // the cells ask for them
-    bool here = true;
-    for (unsigned int b = 0; b < state.n_blocks(); ++b)
-      here = here && std::all_of(state.block(b).begin(), state.block(b).end(), finite);
-    for (const auto &[name, values] : cell_fields(state))
-      here = here && std::all_of(values.begin(), values.end(), finite);
-    for (unsigned int b = 0; b < state.n_blocks(); ++b)
-      state.block(b).zero_out_ghost_values();
+    return !records.empty() && step == last.step;
+  }
+
+
+  const CellFields &
+  Frames::fields(const unsigned int step)
+  {
+    if (!cells || step_of_cells != step)
+      cells.emplace(configuration, elastic);
+    step_of_cells = step;
+    return *cells;
+  }
+
+
+  bool
+  Frames::can_hold(const unsigned int step)
+  {
+    if (is_written(step))
+      return true;
+    const auto holds = [](const Vector &vector) {
+      return std::all_of(vector.begin(), vector.end(), [](const float value) {
+        return std::isfinite(value);
+      });
+    };
+    const bool here = fields(step).finite() && holds(configuration.displacement()) &&
+                      holds(configuration.velocity());
     return Utilities::MPI::min(here ? 1 : 0, body.mesh.communicator) == 1;
   }
 
 
   void
-  Frames::write(const State &state, const Measurement &now)
+  Frames::write(const Measurement &now)
   {
-    if (!records.empty() && now.step == last.step)
+    if (is_written(now.step))
       return;
     const std::string name = "frame_" + Utilities::int_to_string(n_written(), 4);
-    write_vtu(state, now, name);
+    draw_state(now, name);
 
     const bool first    = records.empty();
     const bool parallel = Utilities::MPI::n_mpi_processes(body.mesh.communicator) > 1;
@@ -140,54 +167,40 @@ namespace Supple
       first ? now.max_volume_ratio : std::max(max_volume_ratio, now.max_volume_ratio);
     inverted          = inverted || now.inverted > 0;
     last              = now;
-    last_displacement = state.block(0);
+    last_displacement = configuration.displacement();
   }
 
 
   void
-  Frames::write_vtu(const State &state, const Measurement &now, const std::string &name)
+  Frames::draw_state(const Measurement &now, const std::string &name)
   {
-    // Drawing works with whole vectors: ghost values stay valid until it is done.
-    for (unsigned int b = 0; b < state.n_blocks(); ++b)
-      state.block(b).update_ghost_values();
+    const State &state = configuration.state;
     Vector deformed;
     body.initialize(deformed);
     for (unsigned int node = 0; node < body.n_owned; ++node)
       for (unsigned int i = 0; i < 3; ++i)
         deformed.local_element(3 * node + i) =
-          body.positions[node][i] + state.block(0).local_element(3 * node + i);
-    deformed.update_ghost_values();
+          body.positions[node][i] + state.displacement.local_element(3 * node + i);
+    const CellFields &of_cells = fields(now.step);
 
-    Drawing drawing{now.time, now.step, deformed, {}, cell_fields(state)};
-    const char *const names[] = {"displacement", "velocity"};
-    for (unsigned int b = 0; b < state.n_blocks(); ++b)
-      drawing.of_nodes.emplace_back(names[b], &state.block(b));
+    // Drawing works with whole vectors: ghost values stay valid until it is done.
+    std::vector<const Vector *> drawn = {&deformed, &state.displacement};
+    if (state.has_velocity())
+      drawn.push_back(&state.velocity);
+    for (const Vector *const vector : drawn)
+      vector->update_ghost_values();
+    const Drawing drawing{now.time,
+                          now.step,
+                          deformed,
+                          state.displacement,
+                          state.has_velocity() ? &state.velocity : nullptr,
+                          of_cells};
     write_pieces(drawing, name);
     if (film)
       film->write(drawing);
-    for (unsigned int b = 0; b < state.n_blocks(); ++b)
-      state.block(b).zero_out_ghost_values();
-  }
-
-
-  std::vector<std::pair<std::string, dealii::Vector<float>>>
-  Frames::cell_fields(const State &state) const
-  {
-    std::vector<std::pair<std::string, dealii::Vector<float>>> fields;
-    for (const char *name :
-         {"volume_ratio", "von_mises_stress", "rotation_angle", "material", "pressure"})
-      fields.emplace_back(name, dealii::Vector<float>(body.mesh.parts->n_cells));
-    const std::vector<CellState> states = body.states(state.block(0).begin());
-    for (std::size_t c = 0; c < states.size(); ++c)
-      {
-        const unsigned int cell = body.cell_index[c];
-        fields[0].second[cell]  = states[c].volume_ratio;
-        fields[1].second[cell]  = states[c].von_mises_stress;
-        fields[2].second[cell]  = states[c].rotation_angle;
-        fields[3].second[cell]  = body.cell_material[c];
-        fields[4].second[cell]  = states[c].pressure;
-      }
-    return fields;
+    cells.reset();
+    for (const Vector *const vector : drawn)
+      vector->zero_out_ghost_values();
   }
 
 

@@ -15,13 +15,27 @@ namespace Supple
     using Component = DataComponentInterpretation::DataComponentInterpretation;
 
 
+    /** The vectors of nodes, with their names in the file. */
+    std::vector<std::pair<std::string, const Vector *>>
+    node_fields(const Drawing &drawing)
+    {
+      std::vector<std::pair<std::string, const Vector *>> fields = {
+        {"displacement", &drawing.displacement}};
+      if (drawing.velocity)
+        fields.emplace_back("velocity", drawing.velocity);
+      return fields;
+    }
+
+
     /** The cells of this process, each with points and values of its own, as deal.II writes them.
      */
     template <int dim>
     std::vector<DataOutBase::Patch<dim, 3>>
     pieces(const DistributedMesh &mesh, const Drawing &drawing)
     {
-      const std::size_t n_values = 3 * drawing.of_nodes.size() + drawing.of_cells.size();
+      const auto of_nodes        = node_fields(drawing);
+      const auto of_cells        = drawing.cells.named();
+      const std::size_t n_values = 3 * of_nodes.size() + of_cells.size();
       std::vector<DataOutBase::Patch<dim, 3>> pieces;
       for (const LocalCell &cell : mesh.cells)
         {
@@ -39,11 +53,11 @@ namespace Supple
               for (unsigned int i = 0; i < 3; ++i)
                 piece.vertices[a][i] = drawing.positions.local_element(first + i);
               unsigned int value = 0;
-              for (const auto &field : drawing.of_nodes)
+              for (const auto &field : of_nodes)
                 for (unsigned int i = 0; i < 3; ++i)
                   piece.data(value++, a) = field.second->local_element(first + i);
-              for (const auto &field : drawing.of_cells)
-                piece.data(value++, a) = field.second(cell.index);
+              for (const auto &field : of_cells)
+                piece.data(value++, a) = (*field.second)[cell.index];
             }
         }
       return pieces;
@@ -56,7 +70,7 @@ namespace Supple
   {
     std::vector<std::string> names_of_values;
     std::vector<std::tuple<unsigned int, unsigned int, std::string, Component>> vectors;
-    for (const auto &field : drawing.of_nodes)
+    for (const auto &field : node_fields(drawing))
       {
         const unsigned int first = names_of_values.size();
         vectors.emplace_back(first,
@@ -65,7 +79,7 @@ namespace Supple
                              DataComponentInterpretation::component_is_part_of_vector);
         names_of_values.insert(names_of_values.end(), 3, field.first);
       }
-    for (const auto &field : drawing.of_cells)
+    for (const auto &field : drawing.cells.named())
       names_of_values.push_back(field.first);
 
     DataOutBase::VtkFlags flags(drawing.time, drawing.step);

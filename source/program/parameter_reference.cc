@@ -1,3 +1,5 @@
+#include <supple/program/parameter_reference.h>
+
 #include <supple/identification/identification_parameters.h>
 #include <supple/scene/parameters.h>
 #include <supple/study/study_parameters.h>
@@ -9,7 +11,7 @@ namespace Supple
   using dealii::ParameterHandler;
 
   void
-  Parameters::print_reference(std::ostream &out, const std::string &format)
+  print_reference(std::ostream &out, const std::string &format)
   {
     Parameters parameters;
     StudyParameters study;

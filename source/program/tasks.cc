@@ -1,6 +1,9 @@
-#include <supple/identification/identification.h>
 #include <supple/program/tasks.h>
+
+#include <supple/identification/identification.h>
+#include <supple/program/parameter_reference.h>
 #include <supple/run/simulation.h>
+#include <supple/scene/read_scene.h>
 #include <supple/study/study.h>
 
 #include <deal.II/base/mpi.h>
@@ -13,10 +16,11 @@ namespace Supple
   {
     template <typename Task, typename TaskParameters>
     void
-    run_or_check(const CommandLine &line, const MPI_Comm communicator)
+    run_or_check(const CommandLine &line,
+                 const TaskParameters &parameters,
+                 const MPI_Comm communicator)
     {
-      const auto parameters = TaskParameters::read(line.scene, line.overrides);
-      const auto folder     = line.output.empty() ? parameters.output_folder() : line.output;
+      const auto folder = line.output.empty() ? parameters.output_folder() : line.output;
       Task task(parameters, folder, line.quiet, communicator);
       if (line.action == CommandLine::Action::run)
         task.run();
@@ -43,16 +47,20 @@ namespace Supple
           return;
         case Action::print_parameters:
           if (root)
-            Parameters::print_reference(std::cout, line.format);
+            print_reference(std::cout, line.format);
           return;
         case Action::check:
         case Action::run:
           if (StudyParameters::is_study(line.scene))
-            run_or_check<Study, StudyParameters>(line, communicator);
+            run_or_check<Study>(line,
+                                StudyParameters::read(line.scene, line.overrides),
+                                communicator);
           else if (IdentificationParameters::is_identification(line.scene))
-            run_or_check<Identification, IdentificationParameters>(line, communicator);
+            run_or_check<Identification>(line,
+                                         IdentificationParameters::read(line.scene, line.overrides),
+                                         communicator);
           else
-            run_or_check<Simulation, Parameters>(line, communicator);
+            run_or_check<Simulation>(line, read_scene(line.scene, line.overrides), communicator);
       }
   }
 } // namespace Supple

@@ -1,4 +1,6 @@
 #include <supple/report/report.h>
+
+#include <supple/base/expression.h>
 #include <supple/report/report_page.h>
 
 #include <nlohmann/json.hpp>
@@ -144,16 +146,23 @@ namespace Supple
     std::string
     full_name(const Parameters &parameters)
     {
-      const std::string folder = std::filesystem::path(parameters.scene_folder).filename().string();
+      const std::string folder =
+        std::filesystem::path(parameters.file.folder()).filename().string();
       return (folder.empty() || folder[0] == '.' ? "" : folder + "/") + parameters.scene_name;
     }
 
 
-    /** Against gravity; null without it. */
+    /** Against gravity at the end; null without it. */
     Json
     upward(const Parameters &parameters)
     {
-      const auto &g = parameters.loads.gravity;
+      const Expression gravity(parameters.loads.gravity_expressions(),
+                               3,
+                               parameters.origin("Loads/Gravity"));
+      const double end = parameters.time.end();
+      dealii::Tensor<1, 3> g;
+      for (unsigned int i = 0; i < 3; ++i)
+        g[i] = gravity.value({0., 0., 0.}, end, i);
       return g.norm() > 0. ? Json{-g[0], -g[1], -g[2]} : Json();
     }
   } // namespace
@@ -162,19 +171,17 @@ namespace Supple
   void
   write_report(const std::string &folder,
                const Parameters &parameters,
-               const std::string &summary,
+               const Json &summary,
                const Film *film)
   {
-    std::ostringstream used;
-    parameters.print(used);
     Json data = {
       {"kind", "run"},
       {"name", full_name(parameters)},
       {"static", parameters.time.problem == TimeParameters::Problem::stationary},
       {"up", upward(parameters)},
-      {"summary", Json::parse(summary)},
+      {"summary", summary},
       {"tables", tables_of(folder)},
-      {"parameters", used.str()},
+      {"parameters", parameters.as_used},
     };
     std::vector<unsigned char> surface;
     if (film)

@@ -1,8 +1,8 @@
-#include <supple/base/files.h>
 #include <supple/report/report_page.h>
 
 #include <supple/base/csv_file.h>
 #include <supple/base/error.h>
+#include <supple/base/files.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -49,6 +49,6 @@ namespace Supple
     std::string page = report_page;
     replace(page, "SUPPLE_SURFACE", dealii::Utilities::encode_base64(surface));
     replace(page, "SUPPLE_DATA", safe);
-    write_whole_file(folder + "/report.html", page);
+    write_whole_file(folder + "/" + page_file, page);
   }
 } // namespace Supple

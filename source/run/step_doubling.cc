@@ -50,8 +50,22 @@ namespace Supple
   }
 
 
+  void
+  StepDoubling::begin(const Observation & /* now */, const bool /* resumed */)
+  {
+  }
+
+
+  bool
+  StepDoubling::after_step(const Observation &now)
+  {
+    error_now = follow(now.measurement.time, now.state.displacement);
+    return true;
+  }
+
+
   std::optional<double>
-  StepDoubling::follow(const double time, const State &state)
+  StepDoubling::follow(const double time, const Vector &displacement)
   {
     if (!failure.empty())
       return {};
@@ -69,7 +83,7 @@ namespace Supple
     if (!second || std::abs(second->time - time) > 1e-9 * time)
       return {};
 
-    last = factor * largest_vertex_distance(state.block(0), second->state.block(0));
+    last = factor * largest_vertex_distance(displacement, second->displacement);
     if (!std::isfinite(last))
       {
         failure = "its motion is too large to be compared";

@@ -1,5 +1,7 @@
 #include <supple/run/summary.h>
 
+#include <supple/observe/diagnostics.h>
+
 #include <deal.II/base/config.h>
 #include <deal.II/base/mpi.h>
 
@@ -16,19 +18,72 @@ namespace Supple
 
   namespace
   {
-    Json
-    what_was_built(const Summary &summary, const Model &model)
+    /** Cube root of the volume per cell, or square root of the area per triangle [m]. */
+    double
+    cell_size(const Mesh &mesh)
     {
-      const Effort &effort = model.effort;
-      return {{"mass_matrix", model.implicit_operator.has_mass()},
-              {"damping_matrix", model.parameters.damping.any()},
+      const double volume = mesh.volume / mesh.n_cells;
+      if (!mesh.section.plane())
+        return std::cbrt(volume);
+      const auto &[low, high] = mesh.bounding_box.get_boundary_points();
+      return std::sqrt(volume / mesh.section.thickness_at(0.5 * (low[0] + high[0])));
+    }
+
+
+    Summary::Size
+    size_of(const Model &model)
+    {
+      const Mesh &mesh = model.body.mesh;
+      Summary::Size size;
+      size.cells     = mesh.n_cells;
+      size.vertices  = mesh.n_vertices;
+      size.dofs      = model.body.n_dofs();
+      size.held      = model.constraints.n_held;
+      size.ranks     = dealii::Utilities::MPI::n_mpi_processes(mesh.communicator);
+      size.threads   = dealii::Utilities::MPI::max(model.body.n_threads, mesh.communicator);
+      size.volume    = mesh.volume;
+      size.cell_size = cell_size(mesh);
+      size.diameter  = mesh.diameter();
+      return size;
+    }
+
+
+    Summary::Spread
+    spread_of(const Model &model)
+    {
+      const MPI_Comm communicator         = model.body.mesh.communicator;
+      const std::vector<LocalCell> &cells = model.body.mesh.parts->cells;
+      std::vector<double> values          = {
+                 double(
+          std::count_if(cells.begin(), cells.end(), [](const auto &cell) { return cell.owned; })),
+                 double(model.body.n_local - model.body.n_owned)};
+      values.insert(values.end(), model.effort.seconds.begin(), model.effort.seconds.end());
+      const auto over_ranks = dealii::Utilities::MPI::min_max_avg(values, communicator);
+
+      Summary::Spread spread;
+      spread.cells          = over_ranks[0];
+      spread.ghost_vertices = over_ranks[1];
+      spread.seconds.assign(over_ranks.begin() + 2, over_ranks.end());
+      for (const auto &level : model.solver.coarse_levels())
+        spread.coarse_levels.emplace_back(level.n_nodes,
+                                          dealii::Utilities::MPI::min_max_avg(double(level.n_owned),
+                                                                              communicator));
+      return spread;
+    }
+
+
+    Json
+    what_was_built(const Summary &summary)
+    {
+      const Effort &effort = summary.effort;
+      return {{"mass_matrix", summary.has_mass},
+              {"damping_matrix", summary.damped},
               {"rotations_computed", effort.rotations_computed},
               {"assemblies", effort.assemblies},
               {"cells_warped", effort.cells_warped},
               {"factorizations", effort.factorizations},
               {"multigrid_hierarchies", effort.hierarchies},
-              {"parallel",
-               dealii::Utilities::MPI::n_mpi_processes(model.body.mesh.communicator) > 1},
+              {"parallel", summary.size.ranks > 1},
               {"energies_measured", summary.observed},
               {"history", summary.history},
               {"probes", summary.probes},
@@ -49,6 +104,18 @@ namespace Supple
               {"min_volume_ratio", last.min_volume_ratio},
               {"max_volume_ratio", last.max_volume_ratio},
               {"inverted", last.inverted}};
+    }
+
+
+    Json
+    worst(const Extremes &extremes)
+    {
+      return {{"energy_rises", extremes.energy_rises},
+              {"energy_risen", extremes.energy_risen},
+              {"most_inverted", extremes.most_inverted},
+              {"min_volume_ratio", extremes.min_volume_ratio},
+              {"max_volume_ratio", extremes.max_volume_ratio},
+              {"not_finite", extremes.not_finite}};
     }
 
 
@@ -78,130 +145,134 @@ namespace Supple
 
 
     Json
-    solutions(const Model &model)
+    solutions(const Summary &summary)
     {
-      const LinearSolver &solver = model.solver;
-      const Effort &effort       = model.effort;
-      Json json                  = {{"name", solver.name()},
-                                    {"reason", solver.reason},
-                                    {"tolerance", model.parameters.solver.tolerance},
-                                    {"max_relative_residual", effort.max_relative_residual},
-                                    {"solves", effort.solves},
-                                    {"iterations", effort.linear_iterations},
-                                    {"newton_iterations", effort.newton_iterations}};
-      if (!solver.stand_in_name().empty())
-        json["stand_in"] = {{"name", solver.stand_in_name()}, {"solves", effort.stand_in_solves}};
+      const Summary::Solver &solver = summary.solver;
+      const Effort &effort          = summary.effort;
+      Json json                     = {{"name", solver.name},
+                                       {"reason", solver.reason},
+                                       {"tolerance", solver.tolerance},
+                                       {"max_relative_residual", effort.max_relative_residual},
+                                       {"solves", effort.solves},
+                                       {"iterations", effort.linear_iterations},
+                                       {"newton_iterations", effort.newton_iterations}};
+      if (!solver.stand_in.empty())
+        json["stand_in"] = {{"name", solver.stand_in}, {"solves", effort.stand_in_solves}};
       return json;
     }
 
 
-    /** How evenly cells, ghosts and seconds are spread over the processes; collective. */
     void
-    add_ranks(Json &json, const Model &model)
+    add_spread(Json &json, const Summary::Spread &spread)
     {
-      const Body &body                       = model.body;
-      const std::vector<LocalCell> &cells    = body.mesh.parts->cells;
-      constexpr unsigned int first_of_phases = 2;
-      std::vector<double> values             = {
-                    double(
-          std::count_if(cells.begin(), cells.end(), [](const auto &cell) { return cell.owned; })),
-                    double(body.n_local - body.n_owned)};
-      values.insert(values.end(), model.effort.seconds.begin(), model.effort.seconds.end());
-      const auto over_ranks = dealii::Utilities::MPI::min_max_avg(values, body.mesh.communicator);
-
-      const auto range = [](const dealii::Utilities::MPI::MinMaxAvg &number) -> Json {
+      const auto range = [](const Summary::Spread::Range &number) -> Json {
         return {{"least", std::lround(number.min)}, {"most", std::lround(number.max)}};
       };
-      json["partition"] = {{"cells", range(over_ranks[0])},
-                           {"ghost_vertices", range(over_ranks[1])}};
-      for (const auto &level : model.solver.coarse_levels())
+      json["partition"] = {{"cells", range(spread.cells)},
+                           {"ghost_vertices", range(spread.ghost_vertices)}};
+      for (const auto &[n_nodes, n_owned] : spread.coarse_levels)
         {
-          const double n_owned = level.n_owned;
-          Json share = range(dealii::Utilities::MPI::min_max_avg(n_owned, body.mesh.communicator));
-          share["nodes"] = level.n_nodes;
+          Json share     = range(n_owned);
+          share["nodes"] = n_nodes;
           json["partition"]["coarse_levels"].push_back(share);
         }
       for (unsigned int phase = 0; phase < phase_names.size(); ++phase)
-        {
-          const auto &seconds                          = over_ranks[first_of_phases + phase];
-          json["seconds_of_ranks"][phase_names[phase]] = {{"most", seconds.max},
-                                                          {"mean", seconds.avg}};
-        }
+        json["seconds_of_ranks"][phase_names[phase]] = {{"most", spread.seconds[phase].max},
+                                                        {"mean", spread.seconds[phase].avg}};
     }
 
 
-    /** Cube root of the volume per cell, or square root of the area per triangle [m]. */
-    double
-    cell_size(const Mesh &mesh)
+    void
+    add_steps(Json &json, const Summary &summary)
     {
-      const double volume = mesh.volume / mesh.n_cells;
-      if (!mesh.section.plane())
-        return std::cbrt(volume);
-      const auto &[low, high] = mesh.bounding_box.get_boundary_points();
-      return std::sqrt(volume / mesh.section.thickness_at(0.5 * (low[0] + high[0])));
+      json["steps"]          = summary.steps;
+      json["rejected_steps"] = summary.effort.rejected_steps;
+      json["failed_steps"]   = summary.effort.failed_steps;
+      json["steps_per_second"] =
+        summary.run_seconds > 0. ? summary.steps / summary.run_seconds : 0.;
+      Json &seconds    = json["seconds"];
+      seconds["setup"] = summary.setup_seconds;
+      seconds["run"]   = summary.run_seconds;
+      for (unsigned int phase = 0; phase < phase_names.size(); ++phase)
+        seconds[phase_names[phase]] = summary.effort.seconds[phase];
     }
   } // namespace
 
 
-  std::string
-  Summary::to_json(const Model &model) const
+  Summary::Summary(const Parameters &parameters, const Model &model)
+    : scene(parameters.scene_name)
+    , size(size_of(model))
+    , effort(model.effort)
+    , has_mass(model.implicit_operator.has_mass())
+    , damped(model.damping.any())
   {
-    const Effort &effort = model.effort;
+    solver = {model.solver.name(),
+              model.solver.reason,
+              model.solver.stand_in_name(),
+              parameters.solver.tolerance};
+    if (size.ranks > 1)
+      spread = spread_of(model);
+    const Vector &displacement = model.configuration.displacement();
+    Vector rest;
+    model.body.initialize(rest);
+    distance_from_rest  = largest_vertex_distance(displacement, rest);
+    distance_from_shape = Supple::distance_from_shape(model.body, displacement);
+  }
+
+
+  Json
+  Summary::to_json() const
+  {
     Json json;
-    json["scene"]    = model.parameters.scene_name;
+    json["scene"]    = scene;
     json["status"]   = status;
     json["warnings"] = warnings;
 
-    json["cells"]     = model.body.mesh.n_cells;
-    json["vertices"]  = model.body.mesh.n_vertices;
-    json["dofs"]      = model.body.n_dofs();
-    json["volume"]    = model.body.mesh.volume;
-    json["cell_size"] = cell_size(model.body.mesh);
-    json["held"]      = model.constraints.n_held;
-    json["ranks"]     = dealii::Utilities::MPI::n_mpi_processes(model.body.mesh.communicator);
-    json["threads"] =
-      dealii::Utilities::MPI::max(model.body.n_threads, model.body.mesh.communicator);
-    json["method"] = integrator;
+    json["cells"]     = size.cells;
+    json["vertices"]  = size.vertices;
+    json["dofs"]      = size.dofs;
+    json["volume"]    = size.volume;
+    json["cell_size"] = size.cell_size;
+    json["held"]      = size.held;
+    json["ranks"]     = size.ranks;
+    json["threads"]   = size.threads;
+    json["method"]    = integrator;
     if (stable_step)
       json["stable_step"] = {{"step", stable_step->step},
                              {"frequency", stable_step->frequency},
                              {"limit", stable_step->limit}};
-    json["solver"] = solutions(model);
+    json["solver"] = solutions(*this);
 
-    json["steps"]            = steps;
-    json["rejected_steps"]   = effort.rejected_steps;
-    json["failed_steps"]     = effort.failed_steps;
-    json["steps_per_second"] = run_seconds > 0. ? steps / run_seconds : 0.;
-    Json &seconds            = json["seconds"];
-    seconds["setup"]         = setup_seconds;
-    seconds["run"]           = run_seconds;
-    for (unsigned int phase = 0; phase < phase_names.size(); ++phase)
-      seconds[phase_names[phase]] = effort.seconds[phase];
-
-    if (dealii::Utilities::MPI::n_mpi_processes(model.body.mesh.communicator) > 1)
-      add_ranks(json, model);
-
-    if (model.implicit_operator.has_mass())
+    add_steps(json, *this);
+    if (spread)
+      add_spread(json, *spread);
+    if (has_mass)
       json["error_estimate"] = errors(*this);
     if (observed)
       {
         json["last"]     = energies(last);
-        json["extremes"] = {{"energy_rises", extremes.energy_rises},
-                            {"energy_risen", extremes.energy_risen},
-                            {"most_inverted", extremes.most_inverted},
-                            {"min_volume_ratio", extremes.min_volume_ratio},
-                            {"max_volume_ratio", extremes.max_volume_ratio},
-                            {"not_finite", extremes.not_finite}};
+        json["extremes"] = worst(extremes);
       }
     json["distance_from_rest"]   = distance_from_rest;
     json["distance_from_shape"]  = distance_from_shape;
-    json["relative_to_diameter"] = {
-      {"distance_from_rest", distance_from_rest / model.body.mesh.diameter()},
-      {"distance_from_shape", distance_from_shape / model.body.mesh.diameter()}};
-    json["built"]    = what_was_built(*this, model);
-    json["versions"] = {{"supple", SUPPLE_VERSION},
-                        {"deal.II", DEAL_II_PACKAGE_VERSION},
-                        {"SUNDIALS", SUNDIALS_VERSION}};
-    return json.dump(2) + "\n";
+    json["relative_to_diameter"] = {{"distance_from_rest", distance_from_rest / size.diameter},
+                                    {"distance_from_shape", distance_from_shape / size.diameter}};
+    json["built"]                = what_was_built(*this);
+    json["versions"]             = {{"supple", SUPPLE_VERSION},
+                                    {"deal.II", DEAL_II_PACKAGE_VERSION},
+                                    {"SUNDIALS", SUNDIALS_VERSION}};
+    return json;
+  }
+
+
+  std::map<std::string, double>
+  Summary::numbers() const
+  {
+    std::map<std::string, double> all;
+    const Json flat = to_json().flatten(); // "/solver/solves"
+    for (const auto &[place, value] : flat.items())
+      if (value.is_number())
+        all[place.substr(1)] = value.get<double>();
+    return all;
   }
 } // namespace Supple

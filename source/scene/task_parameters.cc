@@ -1,5 +1,7 @@
-#include <supple/base/error.h>
 #include <supple/scene/task_parameters.h>
+
+#include <supple/base/error.h>
+#include <supple/scene/read_scene.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -71,7 +73,7 @@ namespace Supple
     std::error_code unreadable; // a name that is too long is no exception
     if (!std::filesystem::is_regular_file(path(scene), unreadable))
       throw InputError(place("Scene") + ": there is no such parameter file: " + path(scene) + ".");
-    return Parameters::read(path(scene), list);
+    return Supple::read_scene(path(scene), list);
   }
 
 

@@ -160,8 +160,8 @@ namespace Supple
         , Az(A.body.n_local)
         , p(A.body.n_local)
         , q(A.body.n_local)
-        , guesses(!A.body.patches)
-        , previous(A.body)
+        , guesses(!A.configuration.patches)
+        , previous(A.body.partitioner)
       {
       }
 
@@ -239,10 +239,11 @@ namespace Supple
       do_solve(Vector &x, const Vector &b, Vector &residual) override
       {
         const double size   = b.l2_norm();
-        const double before = A.body.patches ? size : begin(x, b, residual, size);
+        const double before = A.configuration.patches ? size : begin(x, b, residual, size);
         const unsigned int n_iterations =
-          A.body.patches ? solve_from_zero(x, b, residual, DoublePrecision(multigrid, r, z, Az))
-                         : solve_in_single_precision(x, b, residual, before);
+          A.configuration.patches
+            ? solve_from_zero(x, b, residual, DoublePrecision(multigrid, r, z, Az))
+            : solve_in_single_precision(x, b, residual, before);
         if (guesses)
           previous.add(x, b, residual);
         rule.solved(n_iterations, std::log(before / residual.l2_norm()), before < size);

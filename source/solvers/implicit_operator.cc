@@ -1,7 +1,10 @@
-#include <supple/base/memory.h>
 #include <supple/solvers/implicit_operator.h>
 
+#include <supple/base/memory.h>
+
 #include <deal.II/base/mpi.h>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,22 +13,29 @@ namespace Supple
 {
   ImplicitOperator::ImplicitOperator(const Body &body,
                                      const Constraints &constraints,
-                                     const Parameters &parameters,
+                                     Forces &forces,
+                                     Configuration &configuration,
+                                     const DampingParameters &damping,
+                                     const CorotationParameters &corotation,
+                                     const bool dynamic,
                                      Effort &effort)
     : body(body)
     , constraints(constraints)
-    , damping(parameters.damping)
+    , forces(forces)
+    , configuration(configuration)
+    , damping(damping)
+    , rotating(configuration)
     , effort(effort)
-    , warp_tolerance(parameters.corotation.warp_tolerance * M_PI / 180.)
+    , warp_tolerance(corotation.warp_tolerance * M_PI / 180.)
     , pattern(make_pattern())
     , A(pattern)
   {
-    body.cells->connect(pattern);
+    forces.connect(pattern);
     find_masked_entries();
-    if (parameters.time.problem == TimeParameters::Problem::dynamic)
+    if (dynamic)
       {
         M = std::make_unique<SymmetricScalarMatrix>(pattern);
-        body.cells->add_mass(*M);
+        body.cells->add_mass(forces.elastic().cell_slots(), *M);
       }
   }
 
@@ -35,12 +45,17 @@ namespace Supple
   ImplicitOperator::make_pattern() const
   {
     std::vector<std::vector<std::uint32_t>> columns(body.n_local);
+    const auto couple = [&](const unsigned int row, const unsigned int column) {
+      if (column < row && column < body.n_owned && !constraints.holds_node(row) &&
+          !constraints.holds_node(column))
+        columns[row].push_back(column);
+    };
     for (const auto &nodes : body.cell_nodes)
       for (const unsigned int row : nodes)
         for (const unsigned int column : nodes)
-          if (column < row && column < body.n_owned && !constraints.holds_node(row) &&
-              !constraints.holds_node(column))
-            columns[row].push_back(column);
+          couple(row, column);
+    for (const auto &[one, other] : forces.couplings())
+      couple(std::max(one, other), std::min(one, other));
 
     SymmetricPattern pattern;
     pattern.n_owned = body.n_owned;
@@ -85,9 +100,9 @@ namespace Supple
   {
     const PhaseTimer timer(effort, Phase::assembly);
     matrix.set_zero();
-    body.cells->add_tangent(factors.mass, factors.stiffness, factors.rotation, matrix, added_bulk);
-    if (factors.diagonal != 0.)
-      matrix.add_to_diagonal(factors.diagonal);
+    forces.add_bounded_tangent(configuration, factors, matrix, added_bulk);
+    if (diagonal != 0.)
+      matrix.add_to_diagonal(diagonal);
     mask(matrix);
   }
 
@@ -103,27 +118,51 @@ namespace Supple
 
 
   bool
+  ImplicitOperator::is_made_of(const TangentFactors &wanted, const double wanted_diagonal) const
+  {
+    return wanted.mass == factors.mass && wanted.velocity == factors.velocity &&
+           wanted.displacement == factors.displacement && wanted_diagonal == diagonal;
+  }
+
+
+  bool
   ImplicitOperator::assemble(const double gamma)
   {
-    const Factors wanted = {1. + gamma * damping.mass_factor,
-                            gamma * gamma + gamma * damping.stiffness_factor,
-                            gamma * gamma,
-                            gamma * damping.viscous};
-    const bool keeps     = warp_tolerance > 0. && body.cells->tangent_is_frozen();
-    if (keeps && renewable && wanted.mass == factors.mass &&
-        wanted.stiffness == factors.stiffness && wanted.diagonal == factors.diagonal)
+    const TangentFactors wanted  = {1. + gamma * damping.mass_factor, gamma, gamma * gamma};
+    const double wanted_diagonal = gamma * damping.viscous;
+    const bool keeps             = warp_tolerance > 0. && forces.elastic().tangent_is_frozen() &&
+                       !forces.others_change_operator();
+    if (keeps && renewable && is_made_of(wanted, wanted_diagonal))
       return renew();
     factors   = wanted;
+    diagonal  = wanted_diagonal;
     renewable = keeps;
     assemble_all();
     return true;
   }
 
 
-  void
-  ImplicitOperator::forget()
+  nlohmann::json
+  ImplicitOperator::save() const
   {
-    renewable = false;
+    if (!renewable)
+      return nullptr;
+    return {{"mass", factors.mass},
+            {"velocity", factors.velocity},
+            {"displacement", factors.displacement},
+            {"diagonal", diagonal}};
+  }
+
+
+  void
+  ImplicitOperator::load(const nlohmann::json &saved)
+  {
+    renewable = !saved.is_null();
+    if (!renewable)
+      return;
+    factors  = {saved.at("mass"), saved.at("velocity"), saved.at("displacement")};
+    diagonal = saved.at("diagonal");
+    made     = false;
   }
 
 
@@ -131,16 +170,22 @@ namespace Supple
   bool
   ImplicitOperator::renew()
   {
-    const std::size_t here = body.cells->n_turned(warp_tolerance);
+    const bool anew = !made;
+    if (anew)
+      {
+        assemble(A, 0.);
+        made = true;
+      }
+    const std::size_t here = forces.elastic().n_turned(configuration, warp_tolerance);
     const std::size_t all  = dealii::Utilities::MPI::sum(here, body.mesh.communicator);
     if (all == 0)
-      return false;
+      return anew;
     if (2 * all > body.mesh.n_cells)
       assemble_all(); // to take off and to put on costs more
     else
       {
         const PhaseTimer timer(effort, Phase::assembly);
-        body.cells->renew_tangent(warp_tolerance, factors.stiffness, A);
+        forces.elastic().renew_tangent(rotating, warp_tolerance, factors, A);
         mask(A);
         ++effort.assemblies;
         effort.cells_warped += here;
@@ -153,10 +198,11 @@ namespace Supple
   ImplicitOperator::assemble_all()
   {
     if (renewable)
-      body.cells->keep_rotations();
+      rotating.rotations.kept = configuration.rotations.current;
     else
-      body.cells->release_rotations();
+      rotating.rotations.kept.clear();
     assemble(A, 0.);
+    made = true;
     ++effort.assemblies;
     effort.cells_warped += body.cell_nodes.size();
   }
@@ -165,7 +211,8 @@ namespace Supple
   void
   ImplicitOperator::assemble_stiffness()
   {
-    factors = {0., 1., 1., 0.};
+    factors  = {0., 0., 1.};
+    diagonal = 0.;
     assemble(A, 0.);
     ++effort.assemblies;
   }
@@ -184,9 +231,9 @@ namespace Supple
   {
     const GhostValues values(x);
     A.vmult(y.begin(), values.data());
-    if (body.patches)
+    if (configuration.patches)
       {
-        body.patches->add_product(factors.stiffness, values.data(), y.begin());
+        configuration.patches->add_product(patch_factor(), values.data(), y.begin());
         constraints.set_zero(y);
       }
   }
@@ -267,12 +314,14 @@ namespace Supple
   ImplicitOperator::stiffness_vmult(Vector &y, const Vector &x) const
   {
     const GhostValues values(x);
-    if (M && factors.stiffness > 0. && factors.stiffness == factors.rotation)
+    const bool is_in_A = M && factors.displacement > 0. && patch_factor() == factors.displacement &&
+                         !forces.others_have_tangent();
+    if (is_in_A)
       {
         // What is lost where M is much larger than K' is round-off of M x / gamma.
-        const double scale = 1. / factors.stiffness;
+        const double scale = 1. / factors.displacement;
         const StiffnessProduct product{
-          A, *M, factors.mass, factors.diagonal, scale, y.begin(), values.data()};
+          A, *M, factors.mass, diagonal, scale, y.begin(), values.data()};
         pattern.for_inner_entries(
           [&product](const std::size_t i, const std::size_t begin, const std::size_t end) {
             product.set_row(i, begin, end);
@@ -281,13 +330,12 @@ namespace Supple
           [&product](const std::size_t i, const std::size_t begin, const std::size_t end) {
             product.add_to_row(i, begin, end);
           });
-        if (body.patches)
-          body.patches->add_product(1., values.data(), y.begin());
+        if (configuration.patches)
+          configuration.patches->add_product(1., values.data(), y.begin());
       }
     else
       sum_into(y, [&](double *sum) {
-        body.add_stiffness_product(values.data(), sum);
-        body.cells->add_rotation_product(values.data(), sum);
+        forces.add_product(configuration, {0., 0., 1.}, values.data(), sum);
       });
     constraints.set_zero(y);
   }

@@ -33,7 +33,7 @@ namespace Supple
     text << "conjugate gradients (" << name() << ") did not reach the relative residual "
          << parameters.tolerance << " in " << n_iterations
          << " iterations (Solver/Iterations); they got to " << relative_residual;
-    if (parameters.method != SolverParameters::Method::automatic)
+    if (parameters.method != SolverMethod::automatic)
       {
         const bool alone = dealii::Utilities::MPI::n_mpi_processes(A.body.mesh.communicator) == 1;
         text << " (Solver/Method = auto has another solver take over; by name there "

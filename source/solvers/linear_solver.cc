@@ -8,7 +8,7 @@
 
 namespace Supple
 {
-  using Method = SolverParameters::Method;
+  using Method = SolverMethod;
 
   namespace
   {
@@ -64,7 +64,7 @@ namespace Supple
                    (ml_fails ? ", some of which own no vertex" : "");
           return ml_fails ? Method::cg_jacobi : multigrid(A);
         }
-      const bool constant       = A.body.rotation == RotationMethod::none;
+      const bool constant       = !A.forces.change_operator();
       const Limits limits       = limits_of(A.body.mesh.section.plane(), constant);
       const unsigned int n_dofs = A.body.n_dofs();
       const auto explain        = [&](const std::string &comparison, const unsigned int limit) {
@@ -130,7 +130,7 @@ namespace Supple
   PreconditioningMatrix::PreconditioningMatrix(const ImplicitOperator &A)
     : A(A)
   {
-    if (A.body.patches)
+    if (A.configuration.patches)
       bounded = std::make_unique<SymmetricBlockMatrix>(A.matrix().pattern);
   }
 
@@ -157,12 +157,13 @@ namespace Supple
 
 
   std::unique_ptr<LinearSolver>
-  LinearSolver::create(const ImplicitOperator &A, const Parameters &scene, Effort &effort)
-
+  LinearSolver::create(const ImplicitOperator &A,
+                       const SolverParameters &parameters,
+                       const ParameterFile &scene,
+                       Effort &effort)
   {
-    const SolverParameters &parameters = scene.solver;
-    std::string reason                 = "asked for";
-    Method method                      = parameters.method;
+    std::string reason = "asked for";
+    Method method      = parameters.method;
     if (method == Method::automatic)
       method = choose(A, reason);
 

@@ -1,5 +1,6 @@
-#include <supple/base/error.h>
 #include <supple/solvers/mass_solver.h>
+
+#include <supple/base/error.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/solver_cg.h>

@@ -78,7 +78,7 @@ namespace Supple
           std::string result = "can be run";
           try
             {
-              Simulation(plan.parameters(run), "", true, communicator);
+              runner.check(plan.parameters(run));
             }
           catch (const InputError &error)
             {

@@ -2,10 +2,9 @@
 
 #include <supple/base/error.h>
 #include <supple/base/text.h>
+#include <supple/input/entries.h>
 
 #include <deal.II/base/utilities.h>
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -90,17 +89,6 @@ namespace Supple
       if (reduction == "frequency")
         return frequency(times, values);
       return values.back();
-    }
-
-
-    double
-    from_summary(const std::string &summary, const std::string &path)
-    {
-      const nlohmann::json::json_pointer pointer("/" + path);
-      const auto json = nlohmann::json::parse(summary, nullptr, false);
-      if (json.is_discarded() || !json.contains(pointer) || !json[pointer].is_number())
-        return nothing;
-      return json[pointer].get<double>();
     }
   } // namespace
 
@@ -393,7 +381,10 @@ namespace Supple
     for (const Value &value : all_values)
       {
         if (value.reduction == "summary")
-          numbers.push_back(from_summary(run.summary, value.column));
+          {
+            const auto found = run.summary.find(value.column);
+            numbers.push_back(found == run.summary.end() ? nothing : found->second);
+          }
         else if (run.columns.count(value.column) == 0)
           numbers.push_back(nothing);
         else if (value.reduction == "at")

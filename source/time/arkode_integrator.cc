@@ -1,5 +1,6 @@
-#include <supple/base/error.h>
 #include <supple/time/arkode_integrator.h>
+
+#include <supple/base/error.h>
 
 #include <arkode/arkode_arkstep.h>
 #include <nlohmann/json.hpp>
@@ -11,7 +12,7 @@
 
 namespace Supple
 {
-  using Method = TimeParameters::Method;
+  using Method = TimeMethod;
 
   namespace
   {
@@ -82,9 +83,7 @@ namespace Supple
 
 
   ArkodeIntegrator::ArkodeIntegrator(const Model &model)
-    : DynamicIntegrator(model,
-                        rotations_of(model.parameters.time.method),
-                        held_velocity_of(model.parameters.time.method))
+    : DynamicIntegrator(model, rotations_of(model.time.method), held_velocity_of(model.time.method))
     , mass_system(context)
     , error(equation.n_unknowns(), model.body.mesh.communicator, context)
     , last_size(settings.step)
@@ -192,7 +191,7 @@ namespace Supple
   {
     if (adaptive || !stable || settings.step <= stable->step)
       return;
-    throw InputError(model.parameters.origin("Time/Step") + ": " + settings.method_name() +
+    throw InputError(model.scene.origin("Time/Step") + ": " + settings.method_name() +
                      " is stable up to a step of " + stable->description() +
                      ". Take a shorter step, variable steps or an implicit method.");
   }
@@ -253,7 +252,7 @@ namespace Supple
     // The force at the end of a stage follows from the solution of its equation.
     ARKStepSetDeduceImplicitRhs(memory, 1);
     ARKStepSetPredictorMethod(memory, 0);
-    set_linear(settings.method == Method::backward_euler || model.forces_are_linear());
+    set_linear(settings.method == Method::backward_euler || model.forces.are_linear());
   }
 
 
@@ -263,7 +262,7 @@ namespace Supple
     linear = is_linear;
     if (linear)
       {
-        ARKStepSetLinear(memory, model.body.rotation == RotationMethod::none ? 0 : 1);
+        ARKStepSetLinear(memory, model.forces.change_operator() ? 1 : 0);
         return;
       }
     ARKStepSetNonlinear(memory);
@@ -286,9 +285,9 @@ namespace Supple
 
 
   void
-  ArkodeIntegrator::restart(const State &state)
+  ArkodeIntegrator::restart()
   {
-    equation.get_unknowns(unknowns.data(), state);
+    equation.get_unknowns(unknowns.data());
     ARKStepReset(memory, time, unknowns);
     ode_time = time;
     if (adaptive)
@@ -337,10 +336,10 @@ namespace Supple
 
 
   StepReport
-  ArkodeIntegrator::take_step(State &state)
+  ArkodeIntegrator::take_step()
   {
     if (!started)
-      restart(state);
+      restart();
     StepReport report;
     if (adaptive)
       {
@@ -353,8 +352,8 @@ namespace Supple
         report.local_error = largest_displacement(error.data());
       }
     else
-      report = take_fixed_step(state);
-    equation.set_state(state, report.time, unknowns.data());
+      report = take_fixed_step();
+    equation.set_configuration(report.time, unknowns.data());
 
     long count = 0;
     if (!settings.is_explicit())
@@ -389,7 +388,7 @@ namespace Supple
   ArkodeIntegrator::set_rotations(const EquationOfMotion::Rotations rotations)
   {
     equation.set_rotations(rotations);
-    set_linear(rotations == EquationOfMotion::Rotations::frozen || model.forces_are_linear());
+    set_linear(rotations == EquationOfMotion::Rotations::frozen || model.forces.are_linear());
   }
 
 
@@ -478,7 +477,7 @@ namespace Supple
 
 
   StepReport
-  ArkodeIntegrator::take_fixed_step(State &state)
+  ArkodeIntegrator::take_fixed_step()
   {
     double size = next_step_size();
     set_step_size(size);
@@ -491,8 +490,8 @@ namespace Supple
         failure.forget();
         ++model.effort.rejected_steps;
         ++model.effort.failed_steps;
-        model.body.update_rotations(state.block(0), model.effort);
-        restart(state);
+        model.configuration.reject(model.effort);
+        restart();
         set_step_size(size *= 0.5);
         step_end = end_of_step(size);
       }

@@ -1,5 +1,6 @@
-#include <supple/base/error.h>
 #include <supple/time/dynamic_integrator.h>
+
+#include <supple/base/error.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -11,8 +12,8 @@ namespace Supple
   DynamicIntegrator::DynamicIntegrator(const Model &model,
                                        const EquationOfMotion::Rotations rotations,
                                        const EquationOfMotion::HeldVelocity held_velocity)
-    : TimeIntegrator(model, model.parameters.time.end())
-    , settings(model.parameters.time)
+    : TimeIntegrator(model, model.time.end())
+    , settings(model.time)
     , equation(model, rotations, held_velocity)
     , backward_euler(held_velocity == EquationOfMotion::HeldVelocity::difference)
     , adaptive(settings.has_variable_steps())
@@ -23,7 +24,7 @@ namespace Supple
     , guard(model)
     , guarded(settings.energy_guard == TimeParameters::EnergyGuard::reject)
   {
-    for (Vector *vector : {&imbalance, &applied, &work_space})
+    for (Vector *vector : {&imbalance, &applied})
       model.body.initialize(*vector);
     system.solve = [this](double *x, const double *b) {
       return failure.guard([&] { equation.solve(x, b); });
@@ -39,7 +40,7 @@ namespace Supple
     for (const auto &[id, n_cells] : body.mesh.materials)
       {
         const IsotropicMaterial &material = body.material(id);
-        const double vertex_mass          = model.parameters.material.vertex_mass;
+        const double vertex_mass          = model.material.vertex_mass;
         const double density              = vertex_mass > 0.
                                               ? body.mesh.n_vertices * vertex_mass / body.mesh.volume
                                               : material.density;
@@ -95,29 +96,30 @@ namespace Supple
 
 
   StepReport
-  DynamicIntegrator::advance(State &state, const bool observed)
+  DynamicIntegrator::advance(const bool observed)
   {
+    Configuration &configuration = model.configuration;
+    configuration.begin_step();
     if (!started && (observed || guarded))
-      set_forces(state, time);
+      set_forces(time);
     if (!started && guarded)
-      guard.start(state);
+      guard.start(time);
     started = true;
 
     const double start                   = time;
     const unsigned int iterations_so_far = equation.linear_iterations;
-    previous                             = state;
-    StepReport report                    = step_once(state, observed || guarded);
-    while (guarded && guard.rises(state, report.load_work) && make_safer())
+    StepReport report                    = step_once(observed || guarded);
+    while (guarded && guard.rises(time, report.load_work) && make_safer())
       {
         try
           {
-            report = step_again(state, start);
+            report = step_again(start);
           }
         catch (const ComputationError &)
           {
             if (!make_simpler())
               throw;
-            report = step_again(state, start);
+            report = step_again(start);
           }
       }
     if (guarded)
@@ -132,64 +134,58 @@ namespace Supple
 
 
   StepReport
-  DynamicIntegrator::step_again(State &state, const double start)
+  DynamicIntegrator::step_again(const double start)
   {
     ++model.effort.rejected_steps;
-    time  = start;
-    state = previous;
-    model.body.update_rotations(state.block(0), model.effort);
-    set_forces(state, time);
-    return step_once(state, true);
+    time = start;
+    model.configuration.reject(model.effort);
+    set_forces(time);
+    return step_once(true);
   }
 
 
   StepReport
-  DynamicIntegrator::step_once(State &state, const bool observed)
+  DynamicIntegrator::step_once(const bool observed)
   {
-    equation.begin_step(time, state);
+    Configuration &configuration = model.configuration;
+    equation.begin_step(time);
     StepReport report;
     try
       {
-        report = take_step(state);
-        if (!all_finite(state.block(0)) || !all_finite(state.block(1)))
+        report = take_step();
+        if (!all_finite(configuration.displacement()) || !all_finite(configuration.velocity()))
           throw ComputationError("the motion is not finite any more");
       }
     catch (...)
       {
-        state = previous;
-        model.body.update_rotations(state.block(0), model.effort);
+        configuration.reject(model.effort);
         throw;
       }
     report.dt = report.time - time;
     if (backward_euler) // dt^2/2 |u''|
       report.local_error =
-        0.5 * report.dt * largest_vertex_distance(state.block(1), previous.block(1));
+        0.5 * report.dt *
+        largest_vertex_distance(configuration.velocity(), configuration.start_of_step().velocity);
 
     time = report.time;
     if (!equation.rotations_are_frozen())
-      model.body.update_rotations(state.block(0), model.effort);
+      configuration.update_rotations(model.effort);
     if (observed)
-      observe(state, report);
+      observe(report);
     if (equation.rotations_are_frozen())
-      model.body.update_rotations(state.block(0), model.effort);
+      configuration.update_rotations(model.effort);
     return report;
   }
 
 
   void
-  DynamicIntegrator::set_forces(const State &state, const double at_time)
+  DynamicIntegrator::set_forces(const double at_time)
   {
     Effort uncounted; // these forces are for the eye alone
-    model.body.internal_force(imbalance, state.block(0), uncounted);
-    if (model.parameters.damping.any())
-      {
-        equation.full_damping_product(work_space, state.block(1));
-        imbalance += work_space;
-      }
-    const Vector &surface = equation.pushed_surface(state.block(0));
-    imbalance -= model.loads.force(at_time, surface);
-    if (model.loads.any_applied())
-      applied = model.loads.applied_force(at_time, surface);
+    equation.set_net_force(imbalance, at_time, uncounted);
+    imbalance *= -1.;
+    if (model.forces.do_work())
+      model.forces.set_working(applied, model.configuration, at_time);
   }
 
 
@@ -201,12 +197,14 @@ namespace Supple
    * the balance then is dissipated.
    */
   void
-  DynamicIntegrator::observe(const State &state, StepReport &report)
+  DynamicIntegrator::observe(StepReport &report)
   {
     const PhaseTimer timer(model.effort, Phase::diagnostics);
-    Vector du = state.block(0), dv = state.block(1), inertia;
-    du -= previous.block(0);
-    dv -= previous.block(1);
+    const Configuration &configuration = model.configuration;
+    const State &start                 = configuration.start_of_step();
+    Vector du = configuration.displacement(), dv = configuration.velocity(), inertia;
+    du -= start.displacement;
+    dv -= start.velocity;
     model.body.initialize(inertia);
     equation.full_mass_product(inertia, dv);
 
@@ -214,7 +212,7 @@ namespace Supple
     // these.
     const double start_weight = backward_euler ? 0. : 0.5;
     const auto add_work       = [&](const double weight) {
-      if (model.loads.any_applied())
+      if (model.forces.do_work())
         report.load_work += weight * (applied * du);
       if (model.constraints.move())
         {
@@ -224,21 +222,25 @@ namespace Supple
     };
     if (start_weight > 0.)
       add_work(start_weight);
-    set_forces(state, report.time);
+    set_forces(report.time);
     add_work(1. - start_weight);
+    report.load_work += model.forces.work_of_time(configuration,
+                                                  report.time - report.dt,
+                                                  report.time,
+                                                  1. - start_weight);
     if (model.constraints.move())
       {
         // Moved vertices may change their velocity at once: then its mean counts.
         set_reactions(inertia);
         report.load_work += backward_euler
                               ? (reactions() * du) / report.dt
-                              : reactions() * previous.block(1) + 0.5 * (reactions() * dv);
+                              : reactions() * start.velocity + 0.5 * (reactions() * dv);
       }
 
     if (backward_euler)
       {
-        const Vector &load =
-          model.loads.force(report.time, equation.pushed_surface(state.block(0)));
+        Vector load = inertia;
+        model.forces.set_loads(load, configuration, report.time);
         report.expended = 0.5 * (dv * inertia) + imbalance * du + load * du;
       }
     inertia *= 1. / report.dt;

@@ -14,17 +14,17 @@ namespace Supple
 
 
   void
-  EnergyGuard::start(const State &state)
+  EnergyGuard::start(const double time)
   {
-    first   = energy(state);
+    first   = energy(time);
     largest = std::max(largest, std::abs(first));
   }
 
 
   bool
-  EnergyGuard::rises(const State &state, const double work)
+  EnergyGuard::rises(const double time, const double work)
   {
-    last    = energy(state);
+    last    = energy(time);
     largest = std::max({largest, std::abs(last), std::abs(work)});
     return !(last - first - work <= energy_accuracy * largest);
   }
@@ -38,11 +38,15 @@ namespace Supple
 
 
   double
-  EnergyGuard::energy(const State &state) const
+  EnergyGuard::energy(const double time) const
   {
-    const GhostValues displacement(state.block(0)), velocity(state.block(1));
-    const CellSums sums = model.body.sums(displacement.data(), velocity.data());
-    return dealii::Utilities::MPI::sum(sums.kinetic + sums.elastic, model.body.mesh.communicator) +
-           model.loads.potential(state.block(0));
+    const Configuration &configuration = model.configuration;
+    Deformation deformation;
+    const Energies energies = model.forces.energies(configuration, time, deformation);
+    const GhostValues displacement(configuration.displacement()),
+      velocity(configuration.velocity());
+    const MotionSums motion = model.body.cells->motion(displacement.data(), velocity.data());
+    return dealii::Utilities::MPI::sum(motion.kinetic, model.body.mesh.communicator) +
+           energies.elastic + energies.potential;
   }
 } // namespace Supple

@@ -31,19 +31,15 @@ namespace Supple
                                      const HeldVelocity held_velocity)
     : model(model)
     , n(3 * model.body.n_owned)
-    , rotations(rotations)
     , tangent(Tangent::frozen)
     , held_velocity(held_velocity)
-    , inertia_couples(!model.parameters.material.lumped &&
-                      model.parameters.material.vertex_mass == 0.)
+    , inertia_couples(!model.material.lumped && model.material.vertex_mass == 0.)
     , mass_solver(model.implicit_operator)
   {
-    for (Vector *vector :
-         {&start_displacement, &displacement, &velocity, &force, &scratch, &solution})
+    for (Vector *vector : {&force, &scratch, &solution})
       model.body.initialize(*vector);
     if (model.constraints.move())
-      for (Vector *vector :
-           {&start_velocity, &prescribed_displacement, &prescribed_velocity, &shift})
+      for (Vector *vector : {&prescribed_displacement, &prescribed_velocity, &shift})
         model.body.initialize(*vector);
 
     set_rotations(rotations);
@@ -51,47 +47,41 @@ namespace Supple
 
 
   void
-  EquationOfMotion::set_rotations(const Rotations new_rotations)
+  EquationOfMotion::set_rotations(const Rotations rotations)
   {
-    using Choice = TimeParameters::TangentChoice;
-    rotations    = new_rotations;
-    tangent      = Tangent::frozen;
-    if (rotations == Rotations::following && model.body.rotation == RotationMethod::polar &&
-        model.parameters.time.tangent != Choice::frozen)
-      tangent =
-        model.parameters.time.tangent == Choice::definite ? Tangent::definite : Tangent::consistent;
-    gives_way =
-      model.parameters.time.tangent == Choice::automatic && tangent == Tangent::consistent;
+    const Tangent wanted              = model.time.tangent;
+    model.configuration.rotations_are = rotations;
+    tangent                           = Tangent::frozen;
+    if (rotations == Rotations::following && model.forces.change_operator() &&
+        model.forces.have_energy() && wanted != Tangent::frozen)
+      tangent = wanted == Tangent::definite ? Tangent::definite : Tangent::consistent;
+    gives_way = wanted == Tangent::automatic && tangent == Tangent::consistent;
   }
 
 
   void
-  EquationOfMotion::begin_step(const double time, const State &state)
+  EquationOfMotion::begin_step(const double time)
   {
-    step_start         = time;
-    replaced           = false;
-    start_displacement = state.block(0);
+    step_start = time;
+    replaced   = false;
     if (model.constraints.move())
-      {
-        start_velocity  = state.block(1);
-        prescribed_time = -1.; // the same time may have another velocity in another step
-      }
+      prescribed_time = -1.; // the same time may have another velocity in another step
   }
 
 
   void
-  EquationOfMotion::get_unknowns(double *y, const State &state)
+  EquationOfMotion::get_unknowns(double *y)
   {
     contraction = 1.; // nothing is known of what was
     stage_time  = -1.;
-    scratch     = state.block(0);
+    scratch     = model.configuration.displacement();
     model.constraints.set_zero(scratch);
     copy_out(y, scratch);
-    scratch = state.block(1);
+    scratch = model.configuration.velocity();
     model.constraints.set_zero(scratch);
     if (model.constraints.move())
       {
-        set_shift(state.block(1));
+        set_shift(model.configuration.velocity());
         scratch += shift;
         prescribed_time = -1.;
       }
@@ -100,26 +90,19 @@ namespace Supple
 
 
   void
-  EquationOfMotion::set_state(State &state, const double time, const double *y)
+  EquationOfMotion::set_configuration(const double time, const double *y)
   {
-    complete(time, y);
-    state.block(0) = displacement;
-    state.block(1) = velocity;
-  }
-
-
-  void
-  EquationOfMotion::complete(const double time, const double *y)
-  {
-    copy_in(displacement, y);
-    copy_in(velocity, y + n);
+    State &state       = model.configuration.state;
+    configuration_time = time;
+    copy_in(state.displacement, y);
+    copy_in(state.velocity, y + n);
     if (model.constraints.move())
       {
         if (time != prescribed_time)
           prescribe(time);
-        velocity -= shift;
-        model.constraints.copy_held(displacement, prescribed_displacement);
-        model.constraints.copy_held(velocity, prescribed_velocity);
+        state.velocity -= shift;
+        model.constraints.copy_held(state.displacement, prescribed_displacement);
+        model.constraints.copy_held(state.velocity, prescribed_velocity);
       }
   }
 
@@ -140,16 +123,16 @@ namespace Supple
     if (held_velocity == HeldVelocity::derivative)
       {
         // Of what lies within the step: a motion may have kinks where steps meet.
-        const double interval = model.parameters.time.derivative_interval();
+        const double interval = model.time.derivative_interval();
         const bool at_start   = time - step_start < 4. * interval;
         model.constraints.set_velocity(held, time, at_start ? interval : -interval);
       }
     else if (time <= step_start)
-      held = start_velocity;
+      held = model.configuration.start_of_step().velocity;
     else
       {
         held = prescribed_displacement;
-        held -= start_displacement;
+        held -= model.configuration.start_of_step().displacement;
         held *= 1. / (time - step_start);
       }
   }
@@ -169,42 +152,37 @@ namespace Supple
   }
 
 
-  const Vector &
-  EquationOfMotion::pushed_surface(const Vector &at_the_end) const
+  void
+  EquationOfMotion::set_net_force(Vector &net, const double time, Effort &effort)
   {
-    return rotations == Rotations::frozen ? start_displacement : at_the_end;
+    const DampingParameters &damping = model.damping;
+    const Vector &velocity           = model.configuration.velocity();
+    model.forces.set_force(net, model.configuration, time, effort);
+    if (damping.mass_factor > 0.)
+      {
+        full_mass_product(scratch, velocity);
+        net.add(-damping.mass_factor, scratch);
+      }
+    if (damping.viscous > 0.)
+      net.add(-damping.viscous, velocity);
   }
 
 
   void
   EquationOfMotion::evaluate(double *f, const double time, const double *y)
   {
-    const DampingParameters &damping = model.parameters.damping;
     if (time != stage_time)
       stage_solutions = 0;
     stage_time = time;
-    complete(time, y);
-    if (rotations == Rotations::following)
-      model.body.update_rotations(displacement, model.effort);
+    set_configuration(time, y);
+    if (!rotations_are_frozen())
+      model.configuration.update_rotations(model.effort);
 
-    scratch = velocity;
+    scratch = model.configuration.velocity();
     model.constraints.set_zero(scratch);
     copy_out(f, scratch);
 
-    // For the rotations of the moment the force is linear: f_int(u) + b K' v = f_int(u + b v).
-    scratch = displacement;
-    if (damping.stiffness_factor > 0.)
-      scratch.add(damping.stiffness_factor, velocity);
-    model.body.internal_force(force, scratch, model.effort);
-    force.sadd(-1., 1., model.loads.force(time, pushed_surface(displacement)));
-
-    if (damping.mass_factor > 0.)
-      {
-        full_mass_product(scratch, velocity);
-        force.add(-damping.mass_factor, scratch);
-      }
-    if (damping.viscous > 0.)
-      force.add(-damping.viscous, velocity);
+    set_net_force(force, time, model.effort);
     model.constraints.set_zero(force);
     if (!all_finite(force))
       throw ComputationError("the forces are not finite numbers");
@@ -245,9 +223,9 @@ namespace Supple
   EquationOfMotion::linearize(const double time, const double *y, const double new_gamma)
   {
     gamma = new_gamma;
-    complete(time, y);
-    if (rotations == Rotations::following)
-      model.body.update_rotations(displacement, model.effort);
+    set_configuration(time, y);
+    if (!rotations_are_frozen())
+      model.configuration.update_rotations(model.effort);
     relinearize();
   }
 
@@ -282,11 +260,12 @@ namespace Supple
   void
   EquationOfMotion::assemble()
   {
-    model.body.update_rotation_stiffness(replaced ? Tangent::definite : tangent,
-                                         displacement,
-                                         model.effort);
+    model.forces.update_tangent(replaced ? Tangent::definite : tangent,
+                                model.configuration,
+                                configuration_time,
+                                model.effort);
     if (model.implicit_operator.assemble(gamma))
-      model.solver.prepare(displacement);
+      model.solver.prepare(model.configuration.displacement());
   }
 
 
@@ -346,17 +325,5 @@ namespace Supple
   {
     const GhostValues values(x);
     sum_into(y, [&](double *sum) { model.body.cells->add_mass_product(values.data(), sum); });
-  }
-
-
-  void
-  EquationOfMotion::full_damping_product(Vector &y, const Vector &x)
-  {
-    const DampingParameters &damping = model.parameters.damping;
-    const GhostValues values(x);
-    sum_into(y, [&](double *sum) { model.body.add_stiffness_product(values.data(), sum); });
-    y *= damping.stiffness_factor;
-    full_mass_product(scratch, x);
-    y.add(damping.mass_factor, scratch, damping.viscous, x);
   }
 } // namespace Supple

@@ -1,5 +1,6 @@
-#include <supple/base/error.h>
 #include <supple/time/ida_integrator.h>
+
+#include <supple/base/error.h>
 
 #include <idas/idas.h>
 #include <nlohmann/json.hpp>
@@ -127,7 +128,7 @@ namespace Supple
   {
     long n_steps = 0;
     IDAGetNumSteps(memory, &n_steps);
-    if (model.body.rotation == RotationMethod::none || n_steps < linearized_at + longest_use)
+    if (!model.forces.change_operator() || n_steps < linearized_at + longest_use)
       return;
     equation.relinearize();
     linearized_at = n_steps;
@@ -148,9 +149,9 @@ namespace Supple
 
 
   void
-  IdaIntegrator::start(const State &state)
+  IdaIntegrator::start()
   {
-    equation.get_unknowns(unknowns.data(), state);
+    equation.get_unknowns(unknowns.data());
     equation.evaluate(work_space.data(), time, unknowns.data());
     equation.solve_mass(rates.data(), work_space.data());
     IDAReInit(memory, time, unknowns, rates);
@@ -172,10 +173,10 @@ namespace Supple
 
 
   StepReport
-  IdaIntegrator::take_step(State &state)
+  IdaIntegrator::take_step()
   {
     if (!started)
-      start(state);
+      start();
     context.message.clear();
     StepReport report;
     const int status = IDASolve(memory, end, &report.time, unknowns, rates, IDA_ONE_STEP);
@@ -183,7 +184,7 @@ namespace Supple
     if (status < 0)
       throw_what_failed();
     failure.forget(); // what failed on the way was mended by a smaller step
-    equation.set_state(state, report.time, unknowns.data());
+    equation.set_configuration(report.time, unknowns.data());
 
     IDAGetEstLocalErrors(memory, error);
     report.local_error = largest_displacement(error.data());

@@ -2,11 +2,8 @@
 
 #include <supple/base/error.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <nlohmann/json.hpp>
 
-#include <cmath>
 #include <sstream>
 
 namespace Supple
@@ -14,19 +11,17 @@ namespace Supple
   StaticEquilibrium::StaticEquilibrium(const Model &model)
     : TimeIntegrator(model, 1.)
   {
-    model.body.initialize(residual);
-    model.body.initialize(correction);
-    model.body.initialize(free_residual);
-    force_accuracy = std::sqrt(
-      dealii::Utilities::MPI::sum(model.body.round_off_square(), model.body.mesh.communicator));
+    for (Vector *vector : {&residual, &correction, &free_residual, &loads})
+      model.body.initialize(*vector);
+    force_accuracy = model.forces.round_off(model.configuration);
   }
 
 
   std::string
   StaticEquilibrium::name() const
   {
-    return model.body.rotation == RotationMethod::none ? "static, one linear solution a load step"
-                                                       : "static, Newton's method in load steps";
+    return model.forces.change_operator() ? "static, Newton's method in load steps"
+                                          : "static, one linear solution a load step";
   }
 
 
@@ -46,50 +41,43 @@ namespace Supple
 
 
   void
-  StaticEquilibrium::update_residual(const Vector &displacement, const double load_factor)
+  StaticEquilibrium::update_residual(const double load_factor)
   {
-    model.body.update_rotations(displacement, model.effort);
-    model.body.internal_force(residual, displacement, model.effort);
-    residual.sadd(-1., load_factor, model.loads.force(1., displacement));
+    model.configuration.update_rotations(model.effort);
+    model.forces.set_force(residual, model.configuration, 1., model.effort, load_factor);
     free_residual = residual;
     model.constraints.set_zero(free_residual);
   }
 
 
-  double
-  StaticEquilibrium::energy(const Vector &displacement, const double load_factor) const
-  {
-    const GhostValues values(displacement);
-    const double elastic = model.body.sums(values.data(), nullptr).elastic;
-    return dealii::Utilities::MPI::sum(elastic, model.body.mesh.communicator) -
-           load_factor * (model.loads.force(1., displacement) * displacement);
-  }
-
-
   void
-  StaticEquilibrium::add_correction(Vector &displacement, const double load_factor)
+  StaticEquilibrium::add_correction(const double load_factor)
   {
-    if (model.body.rotation != RotationMethod::polar) // linear: exact; Gram-Schmidt: no energy
+    Configuration &configuration = model.configuration;
+    Vector &displacement         = configuration.state.displacement;
+    if (!model.forces.change_operator() || !model.forces.have_energy())
       {
         displacement += correction;
-        update_residual(displacement, load_factor);
+        update_residual(load_factor);
         return;
       }
 
     // line search by halves
     const Vector start            = displacement;
-    const double energy_before    = energy(start, load_factor);
+    const double energy_before    = model.forces.energy(configuration, 1., load_factor);
     const double imbalance_before = free_residual.l2_norm();
     const double slope            = free_residual * correction; // minus the derivative, positive
-    for (double part = 1.; part > 1e-3; part *= 0.5)
+    const double largest          = model.forces.largest_step(configuration, correction);
+    for (double part = largest; part > 1e-3 * largest; part *= 0.5)
       {
         displacement = start;
         displacement.add(part, correction);
-        update_residual(displacement, load_factor);
+        update_residual(load_factor);
 
         // Near the equilibrium the energy changes by less than it is accurate; the forces tell
         // more.
-        if (energy(displacement, load_factor) <= energy_before - 1e-4 * part * slope ||
+        if (model.forces.energy(configuration, 1., load_factor) <=
+              energy_before - 1e-4 * part * slope ||
             free_residual.l2_norm() <= imbalance_before)
           return;
       }
@@ -98,22 +86,21 @@ namespace Supple
 
 
   StepReport
-  StaticEquilibrium::advance(State &state, const bool observed)
+  StaticEquilibrium::advance(const bool observed)
   {
-    Vector &u                = state.block(0);
-    const Vector start       = u;
-    const double load_factor = double(n_done + 1) / model.parameters.time.n_steps;
+    Configuration &configuration = model.configuration;
+    const double load_factor     = double(n_done + 1) / model.time.n_steps;
     StepReport report;
     report.time = load_factor;
     report.dt   = load_factor - time;
+    configuration.begin_step();
     try
       {
-        find_equilibrium(u, load_factor, report);
+        find_equilibrium(load_factor, report);
       }
     catch (...)
       {
-        u = start;
-        model.body.update_rotations(u, model.effort);
+        configuration.reject(model.effort);
         throw;
       }
     time = load_factor;
@@ -124,91 +111,99 @@ namespace Supple
         correction = residual;
         correction *= -1.;
         set_reactions(correction);
-        correction = u;
-        correction -= start;
-        if (model.loads.any_applied())
-          report.load_work = load_factor * (model.loads.applied_force(1., u) * correction);
+        correction = configuration.displacement();
+        correction -= configuration.start_of_step().displacement;
+        if (model.forces.do_work())
+          {
+            model.forces.set_working(loads, configuration, 1.);
+            report.load_work = load_factor * (loads * correction);
+          }
       }
     return report;
   }
 
 
   void
-  StaticEquilibrium::assemble(const Vector &u, const Tangent tangent)
+  StaticEquilibrium::assemble(const Tangent tangent)
   {
-    model.body.update_rotation_stiffness(tangent, u, model.effort);
+    model.forces.update_tangent(tangent, model.configuration, 1., model.effort);
     model.implicit_operator.assemble_stiffness();
-    model.solver.prepare(u);
+    model.solver.prepare(model.configuration.displacement());
   }
 
 
   unsigned int
-  StaticEquilibrium::find_correction(const Vector &u)
+  StaticEquilibrium::find_correction()
   {
-    using Choice        = TimeParameters::TangentChoice;
-    const Choice choice = model.parameters.time.tangent;
-    if (model.body.rotation != RotationMethod::polar || choice == Choice::frozen)
+    const Tangent choice = model.time.tangent;
+    if (!model.forces.have_energy() || choice == Tangent::frozen)
       {
-        assemble(u, Tangent::frozen);
+        assemble(Tangent::frozen);
         return model.solver.solve(correction, free_residual);
       }
-    if (choice != Choice::definite)
+    if (choice != Tangent::definite)
       try
         {
-          assemble(u, Tangent::consistent);
+          assemble(Tangent::consistent);
           const unsigned int n_iterations = model.solver.solve(correction, free_residual);
-          if (choice == Choice::consistent || free_residual * correction > 0.)
+          if (choice == Tangent::consistent || free_residual * correction > 0.)
             return n_iterations;
         }
       catch (const ComputationError &)
         {
-          if (choice == Choice::consistent)
+          if (choice == Tangent::consistent)
             throw;
         }
-    assemble(u, Tangent::definite);
+    assemble(Tangent::definite);
     return model.solver.solve(correction, free_residual);
   }
 
 
   void
-  StaticEquilibrium::find_equilibrium(Vector &u, const double load_factor, StepReport &report)
+  StaticEquilibrium::throw_not_converged(const double imbalance) const
   {
-    const TimeParameters &settings = model.parameters.time;
-    const bool linear              = model.forces_are_linear();
+    std::ostringstream text;
+    text << "Newton's method is not done after " << model.time.newton_limit
+         << " iterations: the forces are out of balance by " << imbalance
+         << " of the loads and reactions. More load steps (Time/Steps) may help";
+    throw ComputationError(text.str());
+  }
+
+
+  void
+  StaticEquilibrium::find_equilibrium(const double load_factor, StepReport &report)
+  {
+    const TimeParameters &settings = model.time;
+    const bool linear              = model.forces.are_linear();
 
     if (model.constraints.move())
-      model.constraints.set_displacement(u, load_factor);
-    update_residual(u, load_factor);
+      model.constraints.set_displacement(model.configuration.state.displacement, load_factor);
+    update_residual(load_factor);
     for (;;)
       {
         if (!all_finite(residual))
           throw ComputationError("the forces are not finite any more");
 
         // What is out of balance is small beside the loads and the reactions, or beside round-off.
-        const double size = load_factor * model.loads.force(1., u).l2_norm() + residual.l2_norm();
+        model.forces.set_loads(loads, model.configuration, 1.);
+        const double size    = load_factor * loads.l2_norm() + residual.l2_norm();
         const double balance = free_residual.l2_norm();
         if (linear ? report.newton_iterations == 1
                    : balance <= settings.newton_tolerance * size + force_accuracy)
           return;
         if (report.newton_iterations == settings.newton_limit)
-          {
-            std::ostringstream text;
-            text << "Newton's method is not done after " << settings.newton_limit
-                 << " iterations: the forces are out of balance by " << balance / size
-                 << " of the loads and reactions. More load steps (Time/Steps) may help";
-            throw ComputationError(text.str());
-          }
+          throw_not_converged(balance / size);
 
-        if (model.body.rotation == RotationMethod::none)
+        if (model.forces.change_operator())
+          report.linear_iterations += find_correction();
+        else
           {
             if (!prepared)
-              assemble(u, Tangent::frozen);
+              assemble(Tangent::frozen);
             prepared = true;
             report.linear_iterations += model.solver.solve(correction, free_residual);
           }
-        else
-          report.linear_iterations += find_correction(u);
-        add_correction(u, load_factor);
+        add_correction(load_factor);
         ++report.newton_iterations;
         ++model.effort.newton_iterations;
       }

@@ -1,5 +1,6 @@
-#include <supple/base/error.h>
 #include <supple/time/sundials.h>
+
+#include <supple/base/error.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,8 +1,3 @@
-#include <supple/forces/loads.h>
-#include <supple/mechanics/body.h>
-#include <supple/time/arkode_integrator.h>
-#include <supple/time/ida_integrator.h>
-#include <supple/time/static_equilibrium.h>
 #include <supple/time/time_integrator.h>
 
 #include <nlohmann/json.hpp>
@@ -14,25 +9,6 @@ namespace Supple
     , model(model)
   {
     model.body.initialize(reaction);
-  }
-
-
-  bool
-  Model::forces_are_linear() const
-  {
-    return body.rotation == RotationMethod::none && !loads.follow();
-  }
-
-
-  std::unique_ptr<TimeIntegrator>
-  TimeIntegrator::create(const Model &model, const Vector &displacement)
-  {
-    model.body.update_rotations(displacement, model.effort);
-    if (model.parameters.time.problem == TimeParameters::Problem::stationary)
-      return std::make_unique<StaticEquilibrium>(model);
-    if (model.parameters.time.method == TimeParameters::Method::ida)
-      return std::make_unique<IdaIntegrator>(model);
-    return std::make_unique<ArkodeIntegrator>(model);
   }
 
 

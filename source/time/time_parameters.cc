@@ -1,6 +1,7 @@
+#include <supple/time/time_parameters.h>
+
 #include <supple/base/error.h>
 #include <supple/input/entries.h>
-#include <supple/scene/parameters.h>
 
 #include <cmath>
 
@@ -11,7 +12,7 @@ namespace Supple
 
   namespace
   {
-    using Method = TimeParameters::Method;
+    using Method = TimeMethod;
 
     const std::vector<std::pair<std::string, Method>> methods = {
       {"backward euler", Method::backward_euler},
@@ -99,27 +100,23 @@ namespace Supple
 
 
   void
-  TimeParameters::check(const Parameters &parameters) const
+  TimeParameters::check(const ParameterFile &scene) const
   {
     if (adaptive &&
         (method == Method::backward_euler || method == Method::implicit_backward_euler ||
          method == Method::implicit_midpoint))
-      throw InputError(parameters.origin("Time/Variable steps") + ": " + method_name() +
+      throw InputError(scene.origin("Time/Variable steps") + ": " + method_name() +
                        " has no error estimate to choose steps by. Take ida with Maximum order = 1 "
                        "(backward Euler with variable steps), trbdf2 or esdirk4.");
     if (energy_guard == EnergyGuard::reject && has_variable_steps())
       throw InputError(
-        parameters.origin("Time/Energy guard") +
+        scene.origin("Time/Energy guard") +
         ": only fixed steps can be done again. Take warn, or Variable steps = false.");
 
     if (method == Method::ida && maximum_order > 5)
-      throw InputError(parameters.origin("Time/Maximum order") + ": it can be 5 at most.");
-    if (is_explicit() && !parameters.material.lumped && parameters.material.vertex_mass == 0.)
-      throw InputError(
-        parameters.origin("Time/Method") +
-        ": an explicit method needs a diagonal mass matrix: Material/Mass = lumped.");
+      throw InputError(scene.origin("Time/Maximum order") + ": it can be 5 at most.");
     if (estimate_error && problem == Problem::stationary)
-      throw InputError(parameters.origin("Time/Estimate error") +
+      throw InputError(scene.origin("Time/Estimate error") +
                        ": a static problem has no steps in time; it must be false.");
   }
 
@@ -189,10 +186,10 @@ namespace Supple
       prm,
       "Tangent",
       tangent,
-      {{"auto", TangentChoice::automatic},
-       {"frozen", TangentChoice::frozen},
-       {"consistent", TangentChoice::consistent},
-       {"definite", TangentChoice::definite}},
+      {{"auto", Tangent::automatic},
+       {"frozen", Tangent::frozen},
+       {"consistent", Tangent::consistent},
+       {"definite", Tangent::definite}},
       "The operator of Newton's method for polar rotations: as if the rotations stayed what they "
       "are, the derivative of the force, or its projection cell by cell to one that is not "
       "indefinite. auto takes the derivative, and the projection where that fails.");

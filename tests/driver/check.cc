@@ -8,6 +8,7 @@
 #include <supple/identification/identification.h>
 #include <supple/input/command_line.h>
 #include <supple/run/simulation.h>
+#include <supple/scene/read_scene.h>
 #include <supple/study/study.h>
 
 #include <deal.II/base/exceptions.h>
@@ -27,9 +28,9 @@ namespace
 {
   template <typename Task, typename TaskParameters>
   void
-  check_task(const std::string &scene)
+  check_task(const TaskParameters &parameters)
   {
-    Task(TaskParameters::read(scene, {}), "output", false, MPI_COMM_WORLD).check();
+    Task(parameters, "output", false, MPI_COMM_WORLD).check();
   }
 
 
@@ -37,11 +38,11 @@ namespace
   check_scene(const std::string &scene)
   {
     if (StudyParameters::is_study(scene))
-      check_task<Study, StudyParameters>(scene);
+      check_task<Study>(StudyParameters::read(scene, {}));
     else if (IdentificationParameters::is_identification(scene))
-      check_task<Identification, IdentificationParameters>(scene);
+      check_task<Identification>(IdentificationParameters::read(scene, {}));
     else
-      check_task<Simulation, Parameters>(scene);
+      check_task<Simulation>(read_scene(scene));
   }
 
 

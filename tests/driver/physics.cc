@@ -6,6 +6,7 @@
 
 #include <supple/base/error.h>
 #include <supple/run/simulation.h>
+#include <supple/scene/read_scene.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -90,7 +91,7 @@ main(int argc, char **argv)
   const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   try
     {
-      const auto parameters = Supple::Parameters::read(argv[1]);
+      const auto parameters = Supple::read_scene(argv[1]);
       Supple::Simulation simulation(parameters, "results", true, MPI_COMM_WORLD);
       simulation.run();
     }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <mpi.h>
 #include <string>
+#include <vector>
 
 namespace Supple
 {
@@ -22,6 +23,16 @@ namespace Supple
    * WriteError */
   void
   write_whole_file(const std::string &file, const std::string &content);
+
+
+  /**
+   * Removes the files of these names that are there.
+   * @param names relative to the folder; the last part of a path may have one *, which stands for
+   * any text, as in "solution/frame_*"
+   * @throws std::filesystem::filesystem_error
+   */
+  void
+  remove_files(const std::string &folder, const std::vector<std::string> &names);
 } // namespace Supple
 
 #endif

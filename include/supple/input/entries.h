@@ -139,6 +139,17 @@ namespace Supple
       });
     }
   } // namespace Entries
+
+
+  /** Takes a text "name: value; name: value" apart; the pairs stand in its order. @throws
+   * InputError beginning with @p origin */
+  std::vector<std::pair<std::string, std::string>>
+  named_list(const std::string &text, const std::string &origin);
+
+
+  /** The boundary id that is the whole of a text. @throws InputError beginning with @p origin */
+  unsigned int
+  boundary_id(const std::string &text, const std::string &origin);
 } // namespace Supple
 
 #endif

@@ -4,6 +4,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -49,12 +50,14 @@ namespace Supple
     void
     parse(dealii::ParameterHandler &prm, const std::vector<Override> &overrides);
 
-    /** Where an entry ("Section/Entry") got its value: file:line, "--set", or that it is not set.
-     */
+    /** Where an entry ("Section/Entry") got its value: file:line, "--set", or the file where it is
+     * not set. @throws std::logic_error if parse() knew no such entry: a name that is misspelled in
+     * the program */
     std::string
     place(const std::string &entry) const;
 
-    /** The same, and the value: to begin a message with. */
+    /** The same, and the value, or that it is not set in the scene: to begin a message with.
+     * @throws std::logic_error as place() */
     std::string
     origin(const std::string &entry) const;
 
@@ -77,7 +80,11 @@ namespace Supple
     void
     apply(dealii::ParameterHandler &prm, const Override &override);
 
+    void
+    require_declared(const std::string &entry) const;
+
     std::string file, text;
+    std::set<std::string> declared;            ///< all entries, once they are parsed
     std::map<std::string, std::string> places; ///< entry -> file:line or who else set it
     std::map<std::string, std::string> values; ///< entry -> value as text
   };

@@ -1,10 +1,13 @@
 #ifndef supple_previous_solutions_h
 #define supple_previous_solutions_h
 
-#include <supple/mechanics/body.h>
+#include <supple/linear_algebra/vector.h>
+
+#include <deal.II/base/partitioner.h>
 
 #include <Eigen/Dense>
 
+#include <memory>
 #include <vector>
 
 namespace Supple
@@ -17,7 +20,9 @@ namespace Supple
   class PreviousSolutions
   {
   public:
-    explicit PreviousSolutions(const Body &body);
+    /** @param partitioner of the unknowns */
+    explicit PreviousSolutions(
+      const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &partitioner);
 
     /** @return whether there is a guess; x is zero otherwise */
     bool
@@ -41,7 +46,7 @@ namespace Supple
     Eigen::VectorXd
     products_with(const Vector &vector) const;
 
-    const Body &body;
+    const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
     std::vector<Pair> pairs;
     std::size_t next = 0;   ///< the place of the oldest pair, once all are taken
     Eigen::MatrixXd matrix; ///< scalar products of the kept products

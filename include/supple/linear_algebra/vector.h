@@ -2,7 +2,6 @@
 #define supple_vector_h
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/lac/la_parallel_block_vector.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <algorithm>
@@ -13,10 +12,6 @@ namespace Supple
   /** Three numbers per node; owned nodes first, then ghosts, which are valid only when asked for.
    */
   using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
-
-  /** Displacement (block 0) and velocity (block 1). */
-  using State = dealii::LinearAlgebra::distributed::BlockVector<double>;
-
 
   /** While it lives, the ghost values of a vector are valid. On a single process it does nothing.
    */
@@ -75,6 +70,17 @@ namespace Supple
                                   [](const double value) { return std::isfinite(value); });
     return dealii::Utilities::MPI::min(here ? 1 : 0,
                                        vector.get_partitioner()->get_mpi_communicator()) == 1;
+  }
+
+
+  /** This process's part of the product of two vectors. */
+  inline double
+  local_product(const Vector &a, const Vector &b)
+  {
+    double sum = 0.;
+    for (unsigned int dof = 0; dof < a.locally_owned_size(); ++dof)
+      sum += a.local_element(dof) * b.local_element(dof);
+    return sum;
   }
 
 

@@ -3,6 +3,7 @@
 
 #include <supple/base/expression.h>
 #include <supple/mechanics/body.h>
+#include <supple/mechanics/constraint_parameters.h>
 
 namespace Supple
 {
@@ -10,8 +11,12 @@ namespace Supple
   class Constraints
   {
   public:
-    /** @throws InputError if a boundary or region selects nothing */
-    Constraints(const Body &body, const Parameters &parameters);
+    /** @throws InputError if a boundary or region selects nothing; @p scene knows where the entries
+     * were set */
+    Constraints(const Body &body,
+                const ConstraintParameters &parameters,
+                const Motions &prescribed,
+                const ParameterFile &scene);
 
     /** By local number of the degree of freedom, ghosts included. */
     bool
@@ -90,7 +95,7 @@ namespace Supple
     void
     add_motion(const MotionParameters &motion,
                const std::string &section,
-               const Parameters &parameters);
+               const ParameterFile &scene);
 
     /** A vertex among those selected. */
     dealii::Point<3>

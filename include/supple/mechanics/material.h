@@ -1,6 +1,8 @@
 #ifndef supple_material_h
 #define supple_material_h
 
+#include <supple/mesh/section.h>
+
 namespace Supple
 {
   /** How much larger a cell has become than at rest. */
@@ -39,6 +41,18 @@ namespace Supple
       return lambda / (2. * (lambda + mu));
     }
   };
+
+
+  /** The material with which three-dimensional formulas give the stresses in the plane of a body.
+   */
+  inline IsotropicMaterial
+  effective(const IsotropicMaterial &material, const Section &section)
+  {
+    if (section.geometry != Geometry::plane_stress)
+      return material;
+    const double lambda = material.lambda, mu = material.mu;
+    return {2. * lambda * mu / (lambda + 2. * mu), mu, material.density};
+  }
 } // namespace Supple
 
 #endif

@@ -2,7 +2,7 @@
 #define supple_volumetric_patches_h
 
 #include <supple/linear_algebra/vector.h>
-#include <supple/mechanics/cells.h>
+#include <supple/mechanics/volume_change.h>
 
 #include <deal.II/base/partitioner.h>
 
@@ -32,7 +32,7 @@ namespace Supple
    * with the sums over the cells e of a patch P and the volume change theta_e of VolumeMeasure,
    * which is linear in the displacement as long as H is kept: rotations, or cofactors, of the last
    * update(). s_P is the mean stress, positive in tension. The second derivative of theta_e is not
-   * here but with the rotations, in Cells.
+   * here but with the rotations, in Law.
    *
    * Each process computes Theta of its own patches, all cells of which it has, and learns that of
    * the patches next to them; the forces of these on its own nodes it knows by itself.
@@ -51,13 +51,13 @@ namespace Supple
                       VolumeMeasure measure,
                       std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner);
 
-    /** H of every cell, from the displacement and the rotations the cells have. */
+    /** H of every cell, from the displacement and its rotations. */
     void
-    update(const double *displacement);
+    update(const CellRotations::List &rotations, const double *displacement);
 
-    /** f += sum s_P c_P */
+    /** f -= sum s_P c_P */
     void
-    add_internal_force(const double *displacement, double *force) const;
+    subtract_force(const double *displacement, double *force) const;
 
     /** y += factor sum (kappa / W_P) c_P c_P^T w */
     void

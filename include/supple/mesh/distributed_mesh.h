@@ -17,9 +17,10 @@ namespace Supple
   {
     std::array<unsigned int, 4> nodes; ///< local numbers; the third of a triangle stands twice
     unsigned int material_id;
-    unsigned int index; ///< its place in values by cell
-    unsigned int patch; ///< number of its patch on all processes, if the mesh has patches
-    bool owned;         ///< true on exactly one process
+    unsigned int index;       ///< its place in values by cell
+    unsigned int serial_cell; ///< its index in the whole mesh
+    unsigned int patch;       ///< number of its patch on all processes, if the mesh has patches
+    bool owned;               ///< true on exactly one process
   };
 
 

@@ -3,6 +3,7 @@
 
 #include <supple/mesh/distributed_mesh.h>
 #include <supple/mesh/mesh_check.h>
+#include <supple/mesh/mesh_parameters.h>
 
 #include <deal.II/base/bounding_box.h>
 
@@ -17,8 +18,19 @@ namespace Supple
   class Mesh
   {
   public:
-    /** Collective. @throws InputError on all processes */
-    Mesh(const Parameters &parameters, MPI_Comm communicator);
+    /**
+     * Collective.
+     * @param plane        counts for triangles alone
+     * @param with_patches the cells are grouped, see make_patches()
+     * @param scene        knows where the entries were set, for messages, and its folder has the
+     *                     mesh file
+     * @throws InputError on all processes
+     */
+    Mesh(const MeshParameters &parameters,
+         const PlaneParameters &plane,
+         bool with_patches,
+         const ParameterFile &scene,
+         MPI_Comm communicator);
 
     const MPI_Comm communicator;
     Section section; ///< solid, or what stands behind the triangles of a plane body
@@ -48,7 +60,10 @@ namespace Supple
     /** On the first process: generated or read, checked and measured, with its patches.
      * @throws InputError */
     SerialMesh
-    make_whole(const Parameters &parameters);
+    make_whole(const MeshParameters &parameters,
+               const PlaneParameters &plane,
+               bool with_patches,
+               const ParameterFile &scene);
 
     void
     measure(const SerialMesh &mesh);

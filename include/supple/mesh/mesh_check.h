@@ -59,6 +59,14 @@ namespace Supple
   check_mesh(SerialMesh &mesh, const std::string &origin);
 
 
+  /**
+   * Puts the vertices of an axisymmetric body that are as good as on the axis onto it.
+   * @throws InputError beginning with @p origin if there are any beyond it
+   */
+  void
+  fit_to_axis(SerialMesh &mesh, const std::string &origin);
+
+
   /** "[0, 4] x [0, 12] x [0, 4]"; along x and y alone in two dimensions. */
   std::string
   extent_in_words(const dealii::BoundingBox<3> &box, unsigned int dimension);

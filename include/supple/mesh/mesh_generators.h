@@ -1,9 +1,8 @@
 #ifndef supple_mesh_generators_h
 #define supple_mesh_generators_h
 
+#include <supple/mesh/mesh_parameters.h>
 #include <supple/mesh/serial_mesh.h>
-
-
 
 namespace Supple
 {

@@ -1,8 +1,6 @@
 #ifndef supple_section_h
 #define supple_section_h
 
-#include <supple/mechanics/material.h>
-
 #include <deal.II/base/numbers.h>
 
 namespace Supple
@@ -50,16 +48,6 @@ namespace Supple
     thickness_at(const double x) const
     {
       return axisymmetric() ? 2. * dealii::numbers::PI * x : thickness;
-    }
-
-    /** The material with which three-dimensional formulas give the stresses in the plane. */
-    IsotropicMaterial
-    effective(const IsotropicMaterial &material) const
-    {
-      if (geometry != Geometry::plane_stress)
-        return material;
-      const double lambda = material.lambda, mu = material.mu;
-      return {2. * lambda * mu / (lambda + 2. * mu), mu, material.density};
     }
   };
 } // namespace Supple

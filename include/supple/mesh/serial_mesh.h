@@ -1,8 +1,6 @@
 #ifndef supple_serial_mesh_h
 #define supple_serial_mesh_h
 
-#include <supple/scene/parameters.h>
-
 #include <array>
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/vector.hpp>
@@ -77,12 +75,6 @@ namespace Supple
       archive &dimension &vertices &cells &materials &patches &pieces &boundary;
     }
   };
-
-
-  /** The mesh a scene asks for: generated or read, in metres, positively oriented, with its
-   * boundary ids. */
-  SerialMesh
-  make_serial_mesh(const Parameters &parameters);
 } // namespace Supple
 
 #endif

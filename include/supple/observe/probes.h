@@ -1,7 +1,9 @@
 #ifndef supple_probes_h
 #define supple_probes_h
 
-#include <supple/mechanics/body.h>
+#include <supple/mechanics/configuration.h>
+#include <supple/mechanics/constraint_parameters.h>
+#include <supple/observe/probe_parameters.h>
 
 #include <string>
 #include <vector>
@@ -12,8 +14,12 @@ namespace Supple
   class Probes
   {
   public:
-    /** @throws InputError if a probe is written wrongly or selects nothing */
-    Probes(const Body &body, const Parameters &parameters);
+    /** @throws InputError if a probe is written wrongly or selects nothing; @p scene knows where
+     * the entries were set */
+    Probes(const Body &body,
+           const ProbeParameters &parameters,
+           const Motions &motions,
+           const ParameterFile &scene);
 
     bool
     empty() const
@@ -51,7 +57,7 @@ namespace Supple
 
     /** What a motion moves is followed too: its reaction is the force that the motion takes. */
     void
-    add_motion(const std::string &of, unsigned int motion, const Parameters &parameters);
+    add_motion(const std::string &of, unsigned int motion, const ParameterFile &scene);
 
     void
     add_point(const std::string &name, const std::string &text, const std::string &origin);

@@ -2,12 +2,14 @@
 #define supple_checkpoint_h
 
 #include <supple/mechanics/body.h>
+#include <supple/output/output_parameters.h>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <chrono>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace Supple
 {
@@ -20,7 +22,21 @@ namespace Supple
   class Checkpoint
   {
   public:
-    Checkpoint(const Body &body, const Parameters &parameters, const std::string &folder);
+    /**
+     * @param scene   each entry with its value, as the text of a scene file: a run goes on from a
+     *                checkpoint of the same scene alone
+     * @param dynamic more steps are the same scene
+     * @param folder  of the results
+     */
+    Checkpoint(const Body &body,
+               const CheckpointParameters &wanted,
+               const std::string &scene,
+               bool dynamic,
+               const std::string &folder);
+
+    /** Their names in the folder. */
+    static std::vector<std::string>
+    files();
 
     /** Whether steps or time since the last one are enough. The same answer on all processes. */
     bool
@@ -80,7 +96,9 @@ namespace Supple
     scatter(Vector &vector, const std::vector<double> &values) const;
 
     const Body &body;
-    const Parameters &parameters;
+    const CheckpointParameters &wanted;
+    const std::string scene;
+    const bool dynamic;
     const std::string file, previous_file;
     std::string read_in_words;
     bool damaged           = false;

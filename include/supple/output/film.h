@@ -27,12 +27,15 @@ namespace Supple
   public:
     Film(const Body &body, const std::string &folder);
 
+    /** Its name in the folder. */
+    static std::string
+    file_name();
+
     /** Goes on after the first @p n_frames of a run; if they are not all there, begins here. */
     void
     resume(unsigned int n_frames);
 
-    /** @param drawing has "displacement", "volume_ratio" and "von_mises_stress". @throws WriteError
-     * on the first process */
+    /** @throws WriteError on the first process */
     void
     write(const Drawing &drawing);
 

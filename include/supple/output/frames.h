@@ -1,10 +1,12 @@
 #ifndef supple_frames_h
 #define supple_frames_h
 
-#include <supple/observe/diagnostics.h>
+#include <supple/observe/measurement.h>
 #include <supple/output/film.h>
+#include <supple/output/output_parameters.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,20 +19,30 @@ namespace Supple
   public:
     /** @param folder of the results; solution.pvd goes there and VTU files into solution/ below
      * it, and if a report is wanted, the film that it shows */
-    Frames(const Body &body, const OutputParameters &parameters, const std::string &folder);
+    Frames(const Configuration &configuration,
+           const ElasticForce &elastic,
+           const OutputParameters &parameters,
+           const std::string &folder);
+
+    /** The patterns of their names in the folder, those of the film included. */
+    static std::vector<std::string>
+    files();
 
     /** Whether something has happened that should be seen. */
     bool
-    due(const State &state, const Measurement &now) const;
+    due(const Measurement &now) const;
 
-    /** Whether a frame, whose numbers have 32 bits, can hold the state: none becomes infinite. */
+    /**
+     * Whether a frame, whose numbers have 32 bits, can hold the state: none becomes infinite. What
+     * was computed for that is kept for write() of the same step. Collective.
+     */
     bool
-    can_hold(const State &state) const;
+    can_hold(unsigned int step);
 
     /** Writes the state, unless it was written already. The rotations must be those of the state.
      */
     void
-    write(const State &state, const Measurement &now);
+    write(const Measurement &now);
 
     /** What a checkpoint has to keep of it beside displacement_of_last(). */
     nlohmann::json
@@ -65,15 +77,22 @@ namespace Supple
     bool
     volume_has_changed(const Measurement &now) const;
 
-    void
-    write_vtu(const State &state, const Measurement &now, const std::string &name);
+    bool
+    is_written(unsigned int step) const;
 
-    std::vector<std::pair<std::string, dealii::Vector<float>>>
-    cell_fields(const State &state) const;
+    /** Those of the present state; computed once for each step. */
+    const CellFields &
+    fields(unsigned int step);
+
+    /** Writes the files of this frame. */
+    void
+    draw_state(const Measurement &now, const std::string &name);
 
     void
     write_pieces(const Drawing &drawing, const std::string &name) const;
 
+    const Configuration &configuration;
+    const ElasticForce &elastic;
     const Body &body;
     const OutputParameters &parameters;
     const std::string folder;
@@ -83,6 +102,8 @@ namespace Supple
     Vector last_displacement;
     double min_volume_ratio, max_volume_ratio; ///< of all frames
     bool inverted = false;                     ///< in any frame
+    std::optional<CellFields> cells;           ///< of a step that is not written yet
+    unsigned int step_of_cells = 0;
   };
 } // namespace Supple
 

@@ -2,8 +2,7 @@
 #define supple_vtu_h
 
 #include <supple/mesh/distributed_mesh.h>
-
-#include <deal.II/lac/vector.h>
+#include <supple/output/cell_fields.h>
 
 #include <string>
 #include <utility>
@@ -11,14 +10,15 @@
 
 namespace Supple
 {
-  /** What is drawn of a deformed body. The vectors have valid ghost values. */
+  /** A deformed body as files show it. The vectors have valid ghost values. */
   struct Drawing
   {
     double time;
     unsigned int step;
     const Vector &positions; ///< of the nodes [m]
-    std::vector<std::pair<std::string, const Vector *>> of_nodes;
-    std::vector<std::pair<std::string, dealii::Vector<float>>> of_cells; ///< by LocalCell::index
+    const Vector &displacement;
+    const Vector *velocity; ///< null in a static problem
+    const CellFields &cells;
   };
 
 

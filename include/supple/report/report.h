@@ -4,6 +4,8 @@
 #include <supple/output/film.h>
 #include <supple/scene/parameters.h>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 
 namespace Supple
@@ -20,7 +22,7 @@ namespace Supple
   void
   write_report(const std::string &folder,
                const Parameters &parameters,
-               const std::string &summary,
+               const nlohmann::ordered_json &summary,
                const Film *film);
 } // namespace Supple
 

@@ -14,6 +14,10 @@ namespace Supple
   extern const char report_page[];
 
 
+  /** The name of a report in the folder of its results. */
+  constexpr const char *page_file = "report.html";
+
+
   /** With the seven digits that a picture needs; null for what is no number. */
   Json
   brief_number(double value);

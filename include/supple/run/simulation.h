@@ -1,22 +1,26 @@
 #ifndef supple_simulation_h
 #define supple_simulation_h
 
-#include <supple/base/csv_file.h>
 #include <supple/base/progress.h>
 #include <supple/observe/diagnostics.h>
 #include <supple/observe/probes.h>
 #include <supple/observe/profiles.h>
-#include <supple/output/checkpoint.h>
-#include <supple/output/frames.h>
+#include <supple/run/checkpoints.h>
+#include <supple/run/course.h>
+#include <supple/run/description.h>
+#include <supple/run/interruption.h>
+#include <supple/run/listener.h>
+#include <supple/run/problem.h>
+#include <supple/run/results.h>
 #include <supple/run/step_doubling.h>
+#include <supple/run/summary.h>
+#include <supple/run/writers.h>
 #include <supple/time/time_integrator.h>
 
-#include <nlohmann/json_fwd.hpp>
-
-#include <chrono>
-#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace Supple
 {
@@ -24,16 +28,6 @@ namespace Supple
   class Simulation
   {
   public:
-    /** An accepted state, and what was measured of it. */
-    struct Observation
-    {
-      const Measurement &measurement;
-      const std::vector<double> &probes; ///< as in a row of probes.csv
-      const State &state;
-    };
-
-    using Observer = std::function<void(const Observation &)>;
-
     /**
      * Builds all that the scene needs and validates it; writes nothing.
      * @param folder of the results; if empty, the run writes nothing either
@@ -46,15 +40,16 @@ namespace Supple
                MPI_Comm communicator);
 
     /**
-     * @param observer is called on all processes with each accepted state, that at the start
-     * included
-     * @throws ComputationError with the step and the time, after all files are complete
+     * Runs the scene; to be called once.
+     * @param guest a listener beside those that write the results, or null
+     * @throws InputError if the start is wrong or the results can't be written, ComputationError
+     * with the step and the time, after all files are complete
      */
     void
-    run(const Observer &observer = {});
+    run(Listener *guest = nullptr);
 
-    /** A single step, for those who don't run(). @throws ComputationError */
-    void
+    /** Takes a single step. @return whether no listener asks to stop. @throws ComputationError */
+    bool
     advance();
 
     bool
@@ -64,23 +59,20 @@ namespace Supple
     double
     time() const
     {
-      return now.time;
+      return course.now.time;
     }
 
     /** Displacement and, if the problem is dynamic, velocity after the last accepted step. */
     const State &
     current_state() const
     {
-      return state;
+      return problem.configuration.state;
     }
 
     /** The rows that profile_NAME.csv would get now, on the first process. There must be such a
      * profile. */
     std::vector<std::vector<double>>
-    profile(const std::string &name) const
-    {
-      return profiles.rows(profiles.number(name), step, now.time, state.block(0));
-    }
+    profile(const std::string &name) const;
 
     /** The names of the columns of probes.csv. */
     std::vector<std::string>
@@ -89,203 +81,89 @@ namespace Supple
       return probes.column_names();
     }
 
-    /** What stands in summary.json after the run; before that, nothing. */
-    const std::string &
+    /** What summary.json tells; to be called after the run. */
+    const Summary &
     summary() const
     {
-      return summary_text;
+      return *last_summary;
     }
 
     /** Says what would be run, as a table, with what was found in the mesh; runs nothing. */
     void
-    check() const
-    {
-      print_description(true);
-    }
+    check() const;
 
   private:
-    /** What is run, as a table; in detail with what was found in the mesh. */
-    void
-    print_description(bool in_detail) const;
-
-    /** What the integrator works with. */
-    Model
-    model();
-
-    void
-    create_initial_state();
-
     /** The second run, which tells the error of this one. */
+    std::unique_ptr<StepDoubling>
+    make_second_run() const;
+
+    /** All that follow the run, each by one line. */
     void
-    create_step_doubling();
+    add_listeners(Listener *guest);
 
-    /** Sets the displacement of the rotation that the scene starts with. */
-    void
-    turn(Vector &displacement) const;
+    Observation
+    observation() const;
 
-    void
-    print_mesh_details() const;
-
-    /** Which rigid motions of the body are free. */
-    std::string
-    free_rigid_motions() const;
-
-    /** Of a plane body, to begin the description of its model with. */
-    std::string
-    section_in_words() const;
-
-    /** What the user should know, in sentences. */
-    std::vector<std::string>
-    warnings() const;
-
-    /** Those of them that come up in the course of a run. */
-    std::vector<std::string>
-    warnings_of_motion() const;
-
-    /** A warning where cells are less than half or more than twice as large as at rest, or nothing:
-     * a strain is not small there, however it is measured. */
-    std::string
-    strains_too_large() const;
-
-    /** A warning where the time stepping itself drives the motion, or nothing. */
-    std::string
-    energy_from_nowhere() const;
-
-    void
-    open_output();
-
-    /** Takes the results of an earlier run out of the folder, but for frames. */
-    void
-    clear_results() const;
-
-    void
-    clear_frames() const;
-
-    /** On the first process, anew or after so many rows. */
-    void
-    open_tables();
-
-    /** Goes on from the checkpoint in the output folder, if that is wanted and there is one. */
-    void
-    resume();
-
-    /** Takes what a checkpoint has kept beside the vectors. */
-    void
-    load(const nlohmann::json &saved);
-
-    void
-    write_checkpoint();
-
-    /** What a checkpoint keeps beside the state. */
-    std::vector<Vector *>
-    kept_vectors();
-
-    void
-    time_loop();
+    Description
+    description() const;
 
     /**
      * Measures the state after a step, which then is the present one.
      * @throws InputError at the start, ComputationError later, if something is no finite number or
-     * the frame that is due could not hold it; the state then is the one before
+     * a listener objects; the state then is the one before
      */
     void
     measure(unsigned int after_step, const StepReport &report);
 
-    /** In words, what of a measurement, its probes and its frame is no finite number; or nothing.
-     */
-    std::string
-    what_is_not_finite(const Measurement &next) const;
-
-    /** Throws that, with the state set back. */
-    void
-    refuse(const std::string &what, const Measurement &next);
-
     /** A row of probes.csv. */
     std::vector<double>
-    probe_values(const Measurement &measurement) const;
+    probe_values(const Measurement &next) const;
 
-    /** Writes what was measured. */
-    void
-    record();
+    /** Why the run must not accept what was measured, in words; empty if it may. */
+    std::string
+    objection(const Measurement &next) const;
 
-    /** Asks the second run for the error. */
-    void
-    estimate_error();
+    /** Throws that, with the state set back. */
+    [[noreturn]] void
+    refuse(const std::string &what, const Measurement &next);
 
-    /** Last frame and summary. */
+    /** Ends the run at a step after which a listener asked to stop. @throws InterruptedError */
+    [[noreturn]] void
+    interrupt();
+
+    /** Ends the run in the step that failed. @throws ComputationError with step and time */
+    [[noreturn]] void
+    fail(const std::string &why);
+
+    /** Lets the listeners write what they have for the end, and writes the summary. */
     void
     finish(const std::string &status);
 
-    std::string
+    Summary
     summarize(const std::string &status);
 
-    /** On the first process. */
-    void
-    write_page() const;
-
-    /** What the run has to say on the screen at its end. */
-    void
-    print_result() const;
-
-    /** A sentence; empty where nothing is written. */
-    std::string
-    where_results_are(const std::string &which) const;
-
-    double
-    seconds_since_start() const;
-
-    /** Without set-up, with the runs that this one goes on from. */
-    double
-    seconds_of_run() const;
-
-    const Parameters parameters;
-    const std::string folder;
-    const MPI_Comm communicator;
-    const bool stationary;
+    Course course;    // first, for it takes the time
     const bool talks; ///< this process writes on the screen
-    const bool writes_history;
-    const bool writes_frames;
-    const bool writes_report;
-    bool observed = false; ///< somebody asks for energies and reactions
-    Observer observer;
-    Effort effort;
-    const std::chrono::steady_clock::time_point start;
-
-    const Mesh mesh;
-    const Body body;
-    const Constraints constraints;
-    const Loads loads;
+    Problem problem;
     const Probes probes;
-    Profiles profiles;
-    ImplicitOperator implicit_operator;
-    std::unique_ptr<LinearSolver> solver;
-    State state;
-    std::unique_ptr<TimeIntegrator> integrator;
+    const Profiles profiles;
+    const std::unique_ptr<TimeIntegrator> integrator;
     Diagnostics diagnostics;
-    Progress progress;
-    std::unique_ptr<CsvFile> history;
-    std::unique_ptr<CsvFile> probe_history;
-    std::unique_ptr<CsvFile> error_history;
-    std::unique_ptr<Frames> frames;
-    std::string earlier_frames; ///< JSON of those before a stretch that writes none
-    std::unique_ptr<StepDoubling> step_doubling;
-    Checkpoint checkpoint;
+    const std::unique_ptr<StepDoubling> second_run; ///< if the scene asks for it
+    const Vector start_displacement;
 
-    std::string summary_text;
+    Results results;
+    FrameWriter *frames      = nullptr; ///< of the results
+    Checkpoints *checkpoints = nullptr; ///< of the results
+    Interruption interruption;
+    Listeners listeners;
+    bool observed = false; ///< somebody asks for energies and reactions
+    bool probed   = false; ///< somebody asks for values of probes
+
+    std::vector<double> probes_now;         ///< the row of probes.csv
     std::vector<std::string> warnings_told; ///< when the run began
-    unsigned int step         = 0;
-    bool resumed              = false;
-    unsigned int steps_before = 0;  ///< of the runs that this one goes on from
-    double seconds_before     = 0.; ///< of the runs that this one goes on from
-    Measurement now;
-    std::vector<double> probes_now; ///< the row of probes.csv
-    State before;                   ///< the present step; counts where it is observed
-    double error_estimate = 0.;     ///< sum of the local errors [m]
-    Vector start_displacement;
-    double largest_energy = 0.; ///< kinetic and elastic, so far [J]
-    double largest_motion = 0.; ///< of a vertex from its place at the start, so far [m]
-    double setup_seconds  = 0.;
-    double run_seconds    = 0.; ///< without those of the second run
+    Progress progress;
+    std::optional<Summary> last_summary;
   };
 } // namespace Supple
 

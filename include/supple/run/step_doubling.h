@@ -1,7 +1,7 @@
 #ifndef supple_step_doubling_h
 #define supple_step_doubling_h
 
-#include <supple/linear_algebra/vector.h>
+#include <supple/run/listener.h>
 #include <supple/scene/parameters.h>
 
 #include <functional>
@@ -19,14 +19,14 @@ namespace Supple
    * With variable steps the second run has a tenth of the tolerances, the factor is 10/9, and the
    * two are compared where they are at the same time, which is at the end.
    */
-  class StepDoubling
+  class StepDoubling : public Listener
   {
   public:
     /** Where the second run is. */
     struct Arrival
     {
-      double time; ///< [s], or load factor
-      const State &state;
+      double time;                ///< [s], or load factor
+      const Vector &displacement; ///< [m]
     };
 
     /** Moves the second run up to a time or just past it. */
@@ -40,13 +40,20 @@ namespace Supple
      *  @param second_run of second_scene(); it may throw a ComputationError */
     StepDoubling(const TimeParameters &time, const SecondRun &second_run);
 
-    /**
-     * Moves the second run up to this time.
-     * @return the error of the displacement, largest over all vertices [m]; nothing where the two
-     * runs are not at the same time
-     */
-    std::optional<double>
-    follow(double time, const State &state);
+    void
+    begin(const Observation &now, bool resumed) override;
+
+    /** Moves the second run up to the time of this state. */
+    bool
+    after_step(const Observation &now) override;
+
+    /** The error of the displacement after the last step, largest over all vertices [m]; nothing
+     * where the two runs are not at the same time. */
+    const std::optional<double> &
+    error() const
+    {
+      return error_now;
+    }
 
     double largest = 0.;    ///< error so far [m]
     double last    = 0.;    ///< error where it was found last [m]
@@ -55,8 +62,12 @@ namespace Supple
     const std::string name; ///< "half the step" or "a tenth of the tolerances"
 
   private:
+    std::optional<double>
+    follow(double time, const Vector &displacement);
+
     const double factor;
     const SecondRun second_run;
+    std::optional<double> error_now;
   };
 } // namespace Supple
 

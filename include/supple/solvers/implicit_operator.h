@@ -2,8 +2,10 @@
 #define supple_implicit_operator_h
 
 #include <supple/base/effort.h>
-#include <supple/mechanics/body.h>
+#include <supple/forces/forces.h>
 #include <supple/mechanics/constraints.h>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <memory>
 
@@ -22,22 +24,31 @@ namespace Supple
   class ImplicitOperator
   {
   public:
+    /** @param dynamic the problem has masses */
     ImplicitOperator(const Body &body,
                      const Constraints &constraints,
-                     const Parameters &parameters,
+                     Forces &forces,
+                     Configuration &configuration,
+                     const DampingParameters &damping,
+                     const CorotationParameters &corotation,
+                     bool dynamic,
                      Effort &effort);
 
-    /** A = M + gamma D + gamma^2 K' with the rotations the body has now, or had less than the warp
-     * tolerance ago. Collective.
+    /** A = M + gamma D + gamma^2 K' with the rotations of the configuration, or those that cells
+     * had less than the warp tolerance ago, which the configuration keeps. Collective.
      * @return whether A has changed */
     bool
     assemble(double gamma);
 
-    /** The next A has the rotations of its moment. */
-    void
-    forget();
+    /** What a checkpoint keeps beside the configuration: of what A with kept rotations is made. */
+    nlohmann::json
+    save() const;
 
-    /** A = K' with the rotations the body has now. */
+    /** The next A is made with the rotations that the configuration keeps. */
+    void
+    load(const nlohmann::json &saved);
+
+    /** A = K' with the rotations of the configuration. */
     void
     assemble_stiffness();
 
@@ -63,7 +74,7 @@ namespace Supple
     double
     patch_factor() const
     {
-      return factors.stiffness;
+      return forces.elastic().stiffness_factor(factors);
     }
 
     const SymmetricBlockMatrix &
@@ -86,18 +97,19 @@ namespace Supple
 
     const Body &body;
     const Constraints &constraints;
+    const Forces &forces;
+    const Configuration &configuration;
     const DampingParameters &damping;
 
   private:
-    /** What A is made of. */
-    struct Factors
-    {
-      double mass = 0., stiffness = 0., rotation = 0., diagonal = 0.;
-    };
-
     void
     assemble(SymmetricBlockMatrix &matrix, double added_bulk) const;
 
+    /** Whether A is made of this already. */
+    bool
+    is_made_of(const TangentFactors &wanted, double wanted_diagonal) const;
+
+    /** With the rotations of now, which are kept if A is renewable. */
     void
     assemble_all();
 
@@ -114,12 +126,15 @@ namespace Supple
     void
     find_masked_entries();
 
+    Configuration &rotating; ///< the configuration, of which the kept rotations change here
     Effort &effort;
     const double warp_tolerance; ///< [rad]
     const SymmetricPattern pattern;
     SymmetricBlockMatrix A;
-    Factors factors;
-    bool renewable = false; ///< A has kept rotations
+    TangentFactors factors;
+    double diagonal = 0.;    ///< beside them
+    bool renewable  = false; ///< A has kept rotations
+    bool made       = true;  ///< false where only its kept rotations are known
     std::unique_ptr<SymmetricScalarMatrix> M;
     std::vector<std::size_t> masked_lower;    ///< positions in A.lower
     std::vector<std::size_t> masked_diagonal; ///< positions in A.diagonal

@@ -2,6 +2,7 @@
 #define supple_linear_solver_h
 
 #include <supple/solvers/implicit_operator.h>
+#include <supple/solvers/solver_parameters.h>
 
 #include <memory>
 #include <string>
@@ -19,9 +20,14 @@ namespace Supple
   public:
     virtual ~LinearSolver() = default;
 
-    /** The solver a scene asks for; `auto` chooses by size and number of processes. */
+    /** The solver a scene asks for; `auto` chooses by size and number of processes.
+     * @throws InputError for a solver that works on one process, on several; @p scene knows where
+     * the entries were set */
     static std::unique_ptr<LinearSolver>
-    create(const ImplicitOperator &A, const Parameters &scene, Effort &effort);
+    create(const ImplicitOperator &A,
+           const SolverParameters &parameters,
+           const ParameterFile &scene,
+           Effort &effort);
 
     /**
      * To be called whenever A has changed.

@@ -3,6 +3,7 @@
 
 #include <supple/solvers/linear_solver.h>
 
+#include <deal.II/lac/la_parallel_block_vector.h>
 #include <deal.II/lac/vector_memory.h>
 
 #include <functional>
@@ -10,6 +11,10 @@
 
 namespace Supple
 {
+  /** Displacements (block 0) and mean stresses of patches (block 1). */
+  using BlockVector = dealii::LinearAlgebra::distributed::BlockVector<double>;
+
+
   /**
    * The linear system of a body whose patches resist to changes of volume, A = A_c + C D^-1 C^T
    * with one column of C for each patch, as the saddle point problem it stands for,
@@ -53,14 +58,14 @@ namespace Supple
 
     /** y = (the matrix above) x */
     void
-    vmult(State &y, const State &x) const;
+    vmult(BlockVector &y, const BlockVector &x) const;
 
   private:
     /** diag(B, S)^-1 */
     struct Preconditioning
     {
       void
-      vmult(State &y, const State &x) const;
+      vmult(BlockVector &y, const BlockVector &x) const;
 
       const std::function<void(Vector &, const Vector &)> of_displacement;
       const PatchSystem &system;
@@ -75,7 +80,7 @@ namespace Supple
           const std::string &name) const;
 
     /** Nothing, of displacements and mean stresses. */
-    State
+    BlockVector
     zero() const;
 
     /** How much larger the residual of A may be than that of the saddle point problem. */
@@ -86,7 +91,7 @@ namespace Supple
     const VolumetricPatches &patches;
     std::vector<double> schur; ///< S of own patches
     mutable Vector scratch;
-    mutable dealii::GrowingVectorMemory<State> memory;
+    mutable dealii::GrowingVectorMemory<BlockVector> memory;
   };
 
 

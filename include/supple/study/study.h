@@ -4,7 +4,7 @@
 #include <supple/study/study_parameters.h>
 #include <supple/study/study_plan.h>
 #include <supple/study/study_quantities.h>
-#include <supple/study/study_record.h>
+#include <supple/study/study_runner.h>
 #include <supple/study/study_table.h>
 
 #include <optional>

@@ -1,7 +1,7 @@
 #ifndef supple_study_record_h
 #define supple_study_record_h
 
-#include <supple/run/simulation.h>
+#include <supple/linear_algebra/vector.h>
 #include <supple/scene/parameters.h>
 
 #include <map>
@@ -33,10 +33,10 @@ namespace Supple
     unsigned int n_cells  = 0;
     unsigned int steps    = 0;
     unsigned int rejected = 0;
-    unsigned int failed   = 0;  ///< steps
-    double end            = 0.; ///< of the run [s]
-    double seconds        = 0.; ///< median of the timed runs
-    std::string summary;        ///< summary.json
+    unsigned int failed   = 0;             ///< steps
+    double end            = 0.;            ///< of the run [s]
+    double seconds        = 0.;            ///< median of the timed runs
+    std::map<std::string, double> summary; ///< numbers of summary.json, such as "solver/solves"
     std::vector<std::string> warnings;
 
     /** The names of the columns of history.csv and probes.csv that a scene gives. */
@@ -63,33 +63,6 @@ namespace Supple
   /** The column with the velocity that belongs to a displacement "name.ux"; empty for others. */
   std::string
   rate_column(const std::string &name);
-
-
-  /** Runs scenes for a study. */
-  class StudyRunner
-  {
-  public:
-    /** @param columns to be kept beside the time; those that a scene lacks are left out */
-    StudyRunner(const std::set<std::string> &columns, MPI_Comm communicator);
-
-    /**
-     * Runs a scene once and keeps what is asked for.
-     * @param folder of its files; empty: none
-     * @return a record that may be of a failure
-     * @throws InputError, InterruptedError
-     */
-    StudyRecord
-    record(const Parameters &parameters, const std::string &folder) const;
-
-    /** The median of the run time of some runs that measure and write nothing, largest over all
-     * processes [s]. @throws ComputationError */
-    double
-    time(const Parameters &parameters, unsigned int repeats) const;
-
-  private:
-    const std::set<std::string> wanted;
-    const MPI_Comm communicator;
-  };
 } // namespace Supple
 
 #endif

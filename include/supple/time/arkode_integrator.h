@@ -42,7 +42,7 @@ namespace Supple
 
   private:
     StepReport
-    take_step(State &state) override;
+    take_step() override;
 
     bool
     make_safer() override;
@@ -82,9 +82,9 @@ namespace Supple
     void
     evaluate(double time, const double *y, double *f);
 
-    /** Takes what the state says for the unknowns and forgets the past. */
+    /** Takes the unknowns from the configuration and forgets the past. */
     void
-    restart(const State &state);
+    restart();
 
     /** One step of ARKode. @return whether it succeeded */
     bool
@@ -117,7 +117,7 @@ namespace Supple
     time_of(double at) const;
 
     StepReport
-    take_fixed_step(State &state);
+    take_fixed_step();
 
     bool linear = false; ///< each stage is one linear system
     Sundials::LinearSystem mass_system;

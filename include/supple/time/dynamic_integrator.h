@@ -13,7 +13,7 @@ namespace Supple
   {
   public:
     StepReport
-    advance(State &state, bool observed) final;
+    advance(bool observed) final;
 
   protected:
     DynamicIntegrator(const Model &model,
@@ -21,11 +21,12 @@ namespace Supple
                       EquationOfMotion::HeldVelocity held_velocity);
 
     /**
-     * Takes one step from the unknowns, which are those of @p state, and sets @p state to its end.
-     * @throws ComputationError with the state as it was
+     * Takes one step from the unknowns, which are those of the configuration, and sets that to its
+     * end.
+     * @throws ComputationError
      */
     virtual StepReport
-    take_step(State &state) = 0;
+    take_step() = 0;
 
     /** Prepares to do the last step again in a way that is less likely to raise the energy.
      * @return false if it stands as it is */
@@ -78,27 +79,26 @@ namespace Supple
 
     /** Reactions, work and what was expended. */
     void
-    observe(const State &state, StepReport &report);
+    observe(StepReport &report);
 
     /** Sets imbalance and applied. */
     void
-    set_forces(const State &state, double at_time);
+    set_forces(double at_time);
 
-    /** One step and what is to be known of it. @throws ComputationError with the state as it was */
+    /** One step and what is to be known of it. @throws ComputationError with the configuration as
+     * it was */
     StepReport
-    step_once(State &state, bool observed);
+    step_once(bool observed);
 
     /** The step from @p start once more, in the way that was prepared. */
     StepReport
-    step_again(State &state, double start);
+    step_again(double start);
 
     EnergyGuard guard;
     const bool guarded;
     bool started = false;
-    State previous;
     Vector imbalance; ///< f_int + D v - f, at the end of the last observed step [N]
-    Vector applied;   ///< f without gravity [N]
-    Vector work_space;
+    Vector applied;   ///< of f, what is counted as work [N]
   };
 } // namespace Supple
 

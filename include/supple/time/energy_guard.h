@@ -5,38 +5,35 @@
 
 namespace Supple
 {
-  /** Looks whether the total energy of the body rises by more than the work that is done on it. */
+  /** Detects steps in which the total energy of the body rises by more than the work that is done
+   * on it. */
   class EnergyGuard
   {
   public:
     explicit EnergyGuard(const Model &model);
 
-    /** Where the energy is counted from: a state with its rotations. */
+    /** Where the energy is counted from: the configuration at this time, with its rotations. */
     void
-    start(const State &state);
+    start(double time);
 
     /** Whether it has risen since, by more than @p work [J] and round-off. */
     bool
-    rises(const State &state, double work);
+    rises(double time, double work);
 
-    /** The last state that was looked at becomes the start. */
+    /** The last configuration that was looked at becomes the start. */
     void
     accept();
 
   private:
-    /** Kinetic, elastic and of gravity [J]. */
+    /** Kinetic, elastic and potential [J]. */
     double
-    energy(const State &state) const;
+    energy(double time) const;
 
     const Model model;
     double first   = 0.; ///< at the start [J]
-    double last    = 0.; ///< of the state that was looked at last [J]
+    double last    = 0.; ///< of the configuration that was looked at last [J]
     double largest = 0.; ///< size of the energies so far [J]
   };
-
-
-  /** What counts as a rise beside the largest energy: more than round-off and inexact solutions. */
-  constexpr double energy_accuracy = 1e-9;
 } // namespace Supple
 
 #endif

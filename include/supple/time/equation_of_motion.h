@@ -21,11 +21,7 @@ namespace Supple
   class EquationOfMotion
   {
   public:
-    enum class Rotations
-    {
-      frozen,   ///< those the body has; pressure follows the surface of the last begin_step()
-      following ///< those of the displacement
-    };
+    using Rotations = Configuration::Rotations;
 
     enum class HeldVelocity
     {
@@ -41,15 +37,18 @@ namespace Supple
       return 2 * n;
     }
 
-    /** To be called with the accepted state at the start of each step. */
+    /** To be called at the start of each step, after that of the configuration. */
     void
-    begin_step(double time, const State &state);
+    begin_step(double time);
 
+    /** Those of the configuration. */
     void
-    get_unknowns(double *y, const State &state);
+    get_unknowns(double *y);
 
+    /** Sets displacement and velocity of the configuration, held entries included, from the
+     * unknowns. */
     void
-    set_state(State &state, double time, const double *y);
+    set_configuration(double time, const double *y);
 
     /** f = (v, net force) at time t */
     void
@@ -88,9 +87,10 @@ namespace Supple
     void
     full_mass_product(Vector &y, const Vector &x) const;
 
-    /** y = D x on all rows, with the rotations the body has now. */
+    /** force = f(t) - f_int - D v of the configuration, on all rows; what is counted of it goes to
+     * @p effort. */
     void
-    full_damping_product(Vector &y, const Vector &x);
+    set_net_force(Vector &force, double time, Effort &effort);
 
     /** Prepares solve() for the same gamma at the state of the last evaluate(). @throws
      * ComputationError */
@@ -113,21 +113,13 @@ namespace Supple
     bool
     rotations_are_frozen() const
     {
-      return rotations == Rotations::frozen;
+      return model.configuration.rotations_are == Rotations::frozen;
     }
-
-    /** What pressure pushes on in a step that ended with this displacement. */
-    const Vector &
-    pushed_surface(const Vector &displacement) const;
 
     const Model model;
     unsigned int linear_iterations = 0; ///< so far
 
   private:
-    /** Sets displacement and velocity, held entries included, from the unknowns. */
-    void
-    complete(double time, const double *y);
-
     /** Sets the held entries of displacement and velocity, and the shift between q and v. */
     void
     prescribe(double time);
@@ -139,12 +131,11 @@ namespace Supple
     void
     set_shift(const Vector &held_velocity);
 
-    /** The operator at the displacement of the last complete(). */
+    /** The operator at the configuration. */
     void
     assemble();
 
-    const unsigned int n; ///< own degrees of freedom
-    Rotations rotations;
+    const unsigned int n;   ///< own degrees of freedom
     Tangent tangent;        ///< wanted
     bool gives_way = false; ///< a tangent that is not definite is replaced by one that is
     bool replaced  = false; ///< since the last begin_step()
@@ -152,10 +143,9 @@ namespace Supple
     const bool inertia_couples; ///< a held vertex to its neighbours, by the mass matrix
     MassSolver mass_solver;
 
-    double step_start = 0.;
-    Vector start_displacement, start_velocity;
-
-    double prescribed_time = -1.;
+    double step_start         = 0.;
+    double configuration_time = 0.;
+    double prescribed_time    = -1.;
     Vector prescribed_displacement, prescribed_velocity, shift;
 
     double stage_time            = -1.; ///< of the last evaluate() [s]
@@ -164,7 +154,7 @@ namespace Supple
     double contraction           = 1.;  ///< of the second correction over the first, lately
 
     double gamma = 0.;
-    Vector displacement, velocity, force, scratch, solution;
+    Vector force, scratch, solution;
   };
 } // namespace Supple
 

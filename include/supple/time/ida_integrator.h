@@ -27,7 +27,7 @@ namespace Supple
 
   private:
     StepReport
-    take_step(State &state) override;
+    take_step() override;
 
     bool
     make_safer() override
@@ -51,7 +51,7 @@ namespace Supple
 
     /** Consistent rates, and a first step whose displacement stays within the tolerance. */
     void
-    start(const State &state);
+    start();
 
     /** So far. */
     void

@@ -20,7 +20,7 @@ namespace Supple
     StaticEquilibrium(const Model &model);
 
     StepReport
-    advance(State &state, bool observed) override;
+    advance(bool observed) override;
 
     std::string
     name() const override;
@@ -35,31 +35,32 @@ namespace Supple
     /** s f - f_int(u), with the rotations updated to u; the held entries are the reactions with a
      * minus sign. */
     void
-    update_residual(const Vector &displacement, double load_factor);
+    update_residual(double load_factor);
 
-    /** W(u) - s f.u [J], with the rotations of the last update. */
-    double
-    energy(const Vector &displacement, double load_factor) const;
-
-    /** Adds as much of the correction as lowers the energy. */
+    /** Adds as much of the correction as lowers the energy W(u) - s f.u. */
     void
-    add_correction(Vector &displacement, double load_factor);
+    add_correction(double load_factor);
 
     void
-    assemble(const Vector &displacement, Tangent tangent);
+    assemble(Tangent tangent);
 
     /** Sets the correction. @return the iterations of the linear solver */
     unsigned int
-    find_correction(const Vector &displacement);
+    find_correction();
+
+    /** @throws ComputationError: Newton's method is not done, and what may help
+     * @param imbalance relative to loads and reactions */
+    [[noreturn]] void
+    throw_not_converged(double imbalance) const;
 
     /** Newton's iterations of one load step. */
     void
-    find_equilibrium(Vector &displacement, double load_factor, StepReport &report);
+    find_equilibrium(double load_factor, StepReport &report);
 
     double force_accuracy = 0.; ///< what round-off leaves of forces in balance [N]
     bool prepared         = false;
     unsigned int n_done   = 0; ///< load steps
-    Vector residual, correction, free_residual;
+    Vector residual, correction, free_residual, loads;
   };
 } // namespace Supple
 

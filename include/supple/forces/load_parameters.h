@@ -1,0 +1,33 @@
+#ifndef supple_load_parameters_h
+#define supple_load_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+#include <vector>
+
+namespace Supple
+{
+  /** Subsection Loads: the forces on the body. */
+  struct LoadParameters
+  {
+    std::string gravity        = "0, 0, 0"; ///< [m/s^2], three numbers or expressions
+    std::string body_force     = "0; 0; 0"; ///< [N/m^3]
+    std::string nodal_force    = "0; 0; 0"; ///< [N]
+    std::string nodal_force_on = "all";
+    std::string traction       = "0; 0; 0"; ///< [Pa]
+    std::vector<unsigned int> traction_on;
+    std::string pressure = "0"; ///< [Pa]
+    std::vector<unsigned int> pressure_on;
+    bool pressure_follows = true;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+
+    /** Gravity as expressions, separated by semicolons. */
+    std::string
+    gravity_expressions() const;
+  };
+} // namespace Supple
+
+#endif

@@ -1,0 +1,456 @@
+#ifndef supple_law_sweeps_h
+#define supple_law_sweeps_h
+
+#include <supple/mechanics/volume_change.h>
+
+#include <cmath>
+#include <limits>
+
+namespace Supple
+{
+  /**
+   * The sweeps of a Law over all cells, made of its formulas for the cells of a batch, which are
+   * compiled into them. @p Formulas is a struct with the members of Corotational:
+   *
+   *   name(), is_linear(), has_energy(), has_rotations()
+   *   rotation(F), rotation_in_plane(F)           R of each cell, I for a law without
+   *   stress(batch, R, F)                         first Piola-Kirchhoff stress over R: R^T P [Pa]
+   *   energy_density(batch, R, F)                 [J/m^3]
+   *   stress_change(batch, R, dF), Blocks         the part of the tangent with R held
+   *   Turning, turning(batch, R, F, mean_stress, definite), turning_product(), turning_block()
+   *                                               the rest of it, which can be projected
+   */
+  template <class Formulas>
+  class LawSweeps : public Law
+  {
+  public:
+    LawSweeps(const Formulas &formulas, const Cells &cells)
+      : formulas(formulas)
+      , cells(cells)
+      , volume_stiffness(cells)
+    {
+    }
+
+    std::string
+    name() const override
+    {
+      return formulas.name();
+    }
+
+    bool
+    is_linear() const override
+    {
+      return formulas.is_linear();
+    }
+
+    bool
+    has_energy() const override
+    {
+      return formulas.has_energy();
+    }
+
+    bool
+    has_rotations() const override
+    {
+      return formulas.has_rotations();
+    }
+
+    void
+    update_rotations(const double *displacement, CellRotations::List &rotations) const override
+    {
+      if (rotations.empty())
+        resize_in_huge_pages(rotations, cells.n_batches());
+      if (cells.section.plane())
+        cells.for_batches([&](const std::size_t b) {
+          rotations[b] = formulas.rotation_in_plane(cells.deformation_gradient(b, displacement));
+        });
+      else
+        cells.for_batches([&](const std::size_t b) {
+          rotations[b] = formulas.rotation(cells.deformation_gradient(b, displacement));
+        });
+    }
+
+    void
+    subtract_force(const CellRotations &rotations,
+                   const double *displacement,
+                   double *force) const override
+    {
+      cells.for_batches_in_turn([&](const std::size_t b) {
+        ask_for_next(rotations.current, b);
+        const Matrix3<Pack> F = cells.deformation_gradient(b, displacement);
+        scatter_stress<-1>(b,
+                           rotations,
+                           formulas.stress(cells.batch(b), rotation_of(rotations.current, b), F),
+                           cells.batch(b).volume,
+                           force);
+      });
+    }
+
+    Deformation
+    deformation(const CellRotations &rotations, const double *displacement) const override;
+
+    std::vector<CellState>
+    states(const CellRotations &rotations, const double *displacement) const override;
+
+    double
+    round_off_square() const override
+    {
+      constexpr double epsilon = 8. * std::numeric_limits<double>::epsilon();
+      Pack sum(0.);
+      for (std::size_t b = 0; b < cells.n_batches(); ++b)
+        {
+          const Cells::Batch &batch = cells.batch(b);
+          const Pack stress = epsilon * batch.owned * batch.volume * (batch.lambda + 2. * batch.mu);
+          for (const auto &g : batch.gradients)
+            sum += stress * stress * (g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+        }
+      return std::experimental::reduce(sum);
+    }
+
+    void
+    update_tangent(Tangent tangent,
+                   const CellRotations &rotations,
+                   const double *displacement,
+                   const MeanStress *mean_stress) override;
+
+    bool
+    tangent_is_frozen() const override
+    {
+      return turning.empty() && volume_stiffness.empty();
+    }
+
+    void
+    add_frozen_product(const CellRotations &rotations,
+                       const double factor,
+                       const double *w,
+                       double *y) const override
+    {
+      cells.for_batches_in_turn([&](const std::size_t b) {
+        ask_for_next(rotations.current, b);
+        const Matrix3<Pack> dF = cells.gradient(b, Cells::gather(cells.batch(b), w));
+        scatter_stress<1>(b,
+                          rotations,
+                          formulas.stress_change(cells.batch(b),
+                                                 rotation_of(rotations.current, b),
+                                                 dF),
+                          factor * cells.batch(b).volume,
+                          y);
+      });
+    }
+
+    void
+    add_turning_product(const CellRotations &rotations,
+                        const double factor,
+                        const double *w,
+                        double *y) const override
+    {
+      volume_stiffness.add_product(factor, w, y);
+      for (std::size_t b = 0; b < turning.size(); ++b)
+        {
+          const Cells::Batch &batch = cells.batch(b);
+          Cells::NodalPack f        = formulas.turning_product(turning[b],
+                                                        rotated_gradients(rotations, b),
+                                                        Cells::gather(batch, w));
+          for (auto &of_node : f)
+            for (Pack &component : of_node)
+              component *= factor;
+          Cells::scatter(batch, f, y);
+        }
+    }
+
+    void
+    add_tangent(const CellRotations &rotations,
+                const double mass,
+                const double frozen,
+                const double turning_factor,
+                const CellSlots &slots,
+                SymmetricBlockMatrix &A,
+                const double added_bulk) const override
+    {
+      cells.for_batches_in_turn([&](const std::size_t b) {
+        ask_for_next(rotations.of_tangent(), b);
+        slots.ask_for_next_after(b);
+        add_tangent_of_batch(rotations, b, mass, frozen, turning_factor, slots, A, added_bulk);
+      });
+      if (cells.vertex_mass > 0.)
+        A.add_to_diagonal(mass * cells.vertex_mass);
+    }
+
+    std::size_t
+    n_turned(const CellRotations &rotations, const double angle) const override
+    {
+      const double bound = square_of_difference(angle);
+      std::size_t n      = 0;
+      for (std::size_t b = 0; b < rotations.kept.size(); ++b)
+        n +=
+          std::experimental::popcount(has_turned(rotations, b, bound) && cells.batch(b).owned > 0.);
+      return n;
+    }
+
+    void
+    renew_tangent(CellRotations &rotations,
+                  const double angle,
+                  const double frozen,
+                  const CellSlots &slots,
+                  SymmetricBlockMatrix &A) const override
+    {
+      const double bound = square_of_difference(angle);
+      for (std::size_t b = 0; b < rotations.kept.size(); ++b)
+        {
+          const Pack::mask_type turned = has_turned(rotations, b, bound);
+          if (std::experimental::none_of(turned))
+            continue;
+          add_tangent_of_batch(rotations, b, 0., -frozen, 0., slots, A, 0.);
+          for (unsigned int k = 0; k < 9; ++k)
+            std::experimental::where(turned, rotations.kept[b].entries[k]) =
+              rotations.current[b].entries[k];
+          add_tangent_of_batch(rotations, b, 0., frozen, 0., slots, A, 0.);
+        }
+    }
+
+  private:
+    static Matrix3<Pack>
+    rotation_of(const CellRotations::List &rotations, const std::size_t b)
+    {
+      return rotations.empty() ? Matrix3<Pack>::identity() : rotations[b];
+    }
+
+    Cells::NodalPack
+    rotated_gradients(const CellRotations &rotations, const std::size_t b) const
+    {
+      const CellRotations::List &R = rotations.of_tangent();
+      return R.empty() ? cells.batch(b).gradients
+                       : formulas.rotated_gradients(cells.batch(b), R[b]);
+    }
+
+    /** Adds the forces of a stress in the rotated frame to the nodes, or subtracts them. */
+    template <int sign>
+    void
+    scatter_stress(const std::size_t b,
+                   const CellRotations &rotations,
+                   Matrix3<Pack> P,
+                   const Pack &volume,
+                   double *force) const
+    {
+      if (!rotations.current.empty())
+        P = rotations.current[b] * P;
+      for (Pack &entry : P.entries)
+        entry *= volume;
+      Cells::scatter<sign>(cells.batch(b), cells.divergence(b, P), force);
+    }
+
+    /** |R - R'|^2 of two rotations that differ by this angle. */
+    static double
+    square_of_difference(const double angle)
+    {
+      const double sine = std::sin(0.5 * std::min(angle, M_PI));
+      return 8. * sine * sine;
+    }
+
+    /** Whether cells have turned by more than an angle with this 8 sin(angle/2)^2. */
+    static Pack::mask_type
+    has_turned(const CellRotations &rotations, const std::size_t b, const double bound)
+    {
+      Matrix3<Pack> difference = rotations.current[b];
+      for (unsigned int k = 0; k < 9; ++k)
+        difference.entries[k] -= rotations.kept[b].entries[k];
+      return norm_square(difference) > bound;
+    }
+
+    void
+    add_tangent_of_batch(const CellRotations &rotations,
+                         const std::size_t b,
+                         const double mass,
+                         const double frozen,
+                         const double turning_factor,
+                         const CellSlots &slots,
+                         SymmetricBlockMatrix &A,
+                         const double added_bulk) const
+    {
+      if (cells.section.axisymmetric())
+        add_tangent_of<true>(rotations, b, mass, frozen, turning_factor, slots, A, added_bulk);
+      else
+        add_tangent_of<false>(rotations, b, mass, frozen, turning_factor, slots, A, added_bulk);
+    }
+
+    template <bool axisymmetric>
+    void
+    add_tangent_of(const CellRotations &rotations,
+                   std::size_t b,
+                   double mass,
+                   double frozen,
+                   double turning_factor,
+                   const CellSlots &slots,
+                   SymmetricBlockMatrix &A,
+                   double added_bulk) const;
+
+    const Formulas formulas;
+    const Cells &cells;
+    std::vector<typename Formulas::Turning> turning; ///< empty for frozen rotations
+    VolumeStiffness volume_stiffness;                ///< empty but for determinants
+  };
+
+
+  template <class Formulas>
+  template <bool axisymmetric>
+  inline void
+  LawSweeps<Formulas>::add_tangent_of(const CellRotations &rotations,
+                                      const std::size_t b,
+                                      const double mass,
+                                      const double frozen,
+                                      const double turning_factor,
+                                      const CellSlots &slots,
+                                      SymmetricBlockMatrix &A,
+                                      const double added_bulk) const
+  {
+    const typename Formulas::template Blocks<axisymmetric> blocks(cells.batch(b),
+                                                                  axisymmetric ? &cells.hoop(b)
+                                                                               : nullptr,
+                                                                  rotated_gradients(rotations, b),
+                                                                  frozen,
+                                                                  added_bulk);
+    const Pack same     = mass * cells.mass_entry(b, 0, 0);
+    const Pack other    = mass * cells.mass_entry(b, 0, 1);
+    const bool turns    = !turning.empty();
+    const bool swelling = !volume_stiffness.empty();
+
+    const auto add_block =
+      [&](const unsigned int a, const unsigned int c, const auto &slot, double *values) {
+        Pack diagonal = blocks.shear(a, c);
+        if constexpr (axisymmetric)
+          diagonal += mass * cells.mass_entry(b, a, c);
+        else
+          diagonal += a == c ? same : other;
+        std::array<std::array<Pack, 3>, 3> turn, swell;
+        if (turns)
+          turn = formulas.turning_block(turning[b], blocks.h[a], blocks.h[c]);
+        if (swelling)
+          swell = volume_stiffness.block(b, a, c);
+        alignas(64) double block[9][n_lanes];
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            {
+              Pack entry = blocks.entry(a, c, i, j, diagonal);
+              if (turns)
+                entry += turning_factor * turn[j][i];
+              if (swelling)
+                entry += turning_factor * swell[j][i];
+              if (axisymmetric && i == 0 && j == 0)
+                entry += blocks.hoop_stiffness;
+              entry.copy_to(block[3 * i + j], std::experimental::vector_aligned);
+            }
+        for (unsigned int lane = 0; lane < n_lanes; ++lane)
+          {
+            double *target = values + 9 * static_cast<std::size_t>(slot[lane]);
+            for (unsigned int k = 0; k < 9; ++k)
+              target[k] += block[k][lane];
+          }
+      };
+
+    for (unsigned int a = 0; a < 4; ++a)
+      add_block(a, a, slots.diagonal(b)[a], A.diagonal.data());
+    for (unsigned int p = 0; p < 6; ++p)
+      add_block(CellSlots::lower_pairs[p][0],
+                CellSlots::lower_pairs[p][1],
+                slots.lower(b)[p],
+                A.lower.data());
+  }
+
+
+  template <class Formulas>
+  void
+  LawSweeps<Formulas>::update_tangent(const Tangent tangent,
+                                      const CellRotations &rotations,
+                                      const double *displacement,
+                                      const MeanStress *mean_stress)
+  {
+    const bool by_determinant = mean_stress && mean_stress->measure == VolumeMeasure::determinant;
+    volume_stiffness.clear();
+    if (tangent == Tangent::consistent && by_determinant)
+      volume_stiffness.update(displacement, mean_stress->of_cells);
+
+    if (tangent == Tangent::frozen || is_linear())
+      {
+        turning.clear();
+        return;
+      }
+    turning.resize(cells.n_batches());
+    for (std::size_t b = 0; b < turning.size(); ++b)
+      {
+        Pack s(0.);
+        if (mean_stress && !by_determinant)
+          cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
+            s[lane] = mean_stress->of_cells[cell];
+          });
+        turning[b] = formulas.turning(cells.batch(b),
+                                      rotation_of(rotations.current, b),
+                                      cells.deformation_gradient(b, displacement),
+                                      s,
+                                      tangent == Tangent::definite);
+      }
+  }
+
+
+  template <class Formulas>
+  Deformation
+  LawSweeps<Formulas>::deformation(const CellRotations &rotations, const double *displacement) const
+  {
+    namespace stdx = std::experimental;
+
+    Deformation result;
+    Pack elastic(0.), inverted(0.);
+    Pack smallest(result.min_volume_ratio), largest(result.max_volume_ratio);
+    for (std::size_t b = 0; b < cells.n_batches(); ++b)
+      {
+        const Cells::Batch &batch = cells.batch(b);
+        const Matrix3<Pack> F     = cells.deformation_gradient(b, displacement);
+        elastic += batch.owned * batch.volume *
+                   formulas.energy_density(batch, rotation_of(rotations.current, b), F);
+
+        const Pack ratio   = determinant(F);
+        const auto counted = batch.owned > 0.;
+
+        stdx::where(counted && ratio < smallest, smallest) = ratio;
+        stdx::where(counted && ratio > largest, largest)   = ratio;
+        stdx::where(counted && !(ratio > 0.), inverted) += 1.;
+      }
+    result.elastic          = stdx::reduce(elastic);
+    result.min_volume_ratio = stdx::hmin(smallest);
+    result.max_volume_ratio = stdx::hmax(largest);
+    result.inverted         = static_cast<unsigned int>(stdx::reduce(inverted));
+    return result;
+  }
+
+
+  template <class Formulas>
+  std::vector<CellState>
+  LawSweeps<Formulas>::states(const CellRotations &rotations, const double *displacement) const
+  {
+    namespace stdx = std::experimental;
+
+    std::vector<CellState> states(cells.n_cells);
+    for (std::size_t b = 0; b < cells.n_batches(); ++b)
+      {
+        const Matrix3<Pack> F = cells.deformation_gradient(b, displacement);
+        const Matrix3<Pack> R = rotation_of(rotations.current, b);
+
+        Matrix3<Pack> deviator = formulas.stress(cells.batch(b), R, F);
+        if (cells.section.geometry == Geometry::plane_stress)
+          deviator(2, 2) = 0.;
+        const Pack mean = trace(deviator) / 3.;
+        for (unsigned int i = 0; i < 3; ++i)
+          deviator(i, i) -= mean;
+
+        const Pack von_mises = stdx::sqrt(1.5 * norm_square(deviator));
+        const Pack ratio     = determinant(F);
+        const Pack cosine    = 0.5 * (trace(R) - 1.);
+        cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
+          const double c = std::min(1., std::max(-1., double(cosine[lane])));
+          states[cell]   = {ratio[lane], von_mises[lane], std::acos(c) * 180. / M_PI, -mean[lane]};
+        });
+      }
+    return states;
+  }
+} // namespace Supple
+
+#endif

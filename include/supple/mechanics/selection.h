@@ -1,0 +1,74 @@
+#ifndef supple_selection_h
+#define supple_selection_h
+
+#include <supple/mechanics/body.h>
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Supple
+{
+  /** The vertices, boundaries and regions of a body that a user means by words and numbers. */
+  class Selection
+  {
+  public:
+    explicit Selection(const Body &body)
+      : body(body)
+    {
+    }
+
+    /**
+     * The nodes a user means by "vertex 12", "nearest to 0, 0, 1", "boundary 2, 3", "region z > 1"
+     * or "all".
+     * @throws InputError beginning with @p origin if it is none of these, or there is no such node
+     */
+    std::vector<bool>
+    selected_nodes(const std::string &text, const std::string &origin) const;
+
+    /** The index of the vertex nearest to a point, in the unpartitioned mesh, and its distance [m].
+     */
+    std::pair<unsigned int, double>
+    nearest_vertex(const dealii::Point<3> &point) const;
+
+    /** The nodes of a boundary. @throws InputError beginning with @p origin if there are none. */
+    std::vector<bool>
+    boundary_nodes(unsigned int boundary_id, const std::string &origin) const;
+
+    /**
+     * The faces of boundaries that touch a node of this process, their nodes in the order that
+     * makes the normal point out of the body; the second node of an edge stands twice. @throws
+     * InputError beginning with @p origin if there is no such boundary
+     */
+    std::vector<std::array<unsigned int, 3>>
+    boundary_faces(const std::vector<unsigned int> &boundary_ids, const std::string &origin) const;
+
+    /** The nodes where an expression is not zero. @throws InputError beginning with @p origin if
+     * there are none. */
+    std::vector<bool>
+    region_nodes(const std::string &expression, const std::string &origin) const;
+
+    /** At rest [m], of a vertex by its index in the mesh; collective. */
+    dealii::Point<3>
+    place_of_vertex(unsigned int vertex) const;
+
+    /** "vertex 3 at (0, 0, 1)", for a vertex by its index in the mesh. */
+    std::string
+    vertex_in_words(unsigned int vertex) const;
+
+  private:
+    /** nearest_vertex() of a point that is not far from the body. @throws InputError beginning with
+     * @p origin if it is */
+    unsigned int
+    vertex_of_body(const dealii::Point<3> &point, const std::string &origin) const;
+
+    /** @throws InputError beginning with @p origin */
+    void
+    require_boundary(unsigned int boundary_id, const std::string &origin) const;
+
+    const Body &body;
+  };
+} // namespace Supple
+
+#endif

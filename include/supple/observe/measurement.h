@@ -1,0 +1,58 @@
+#ifndef supple_measurement_h
+#define supple_measurement_h
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace Supple
+{
+  /** One row of history.csv. */
+  struct Measurement
+  {
+    unsigned int step = 0;
+    double time       = 0.; ///< [s]; the load factor of a static problem
+    double dt         = 0.;
+
+    double kinetic    = 0.; ///< [J]
+    double elastic    = 0.; ///< [J]
+    double potential  = 0.; ///< of gravity [J], zero at rest position
+    double dissipated = 0.; ///< by damping and by the time stepping since the start [J]
+    double total      = 0.; ///< kinetic + elastic + potential [J]
+    double work       = 0.; ///< of all loads and of moved vertices since the start [J]
+
+    std::array<double, 3> linear_momentum{{}};  ///< [kg m/s]
+    std::array<double, 3> angular_momentum{{}}; ///< [kg m^2/s]
+
+    double min_volume_ratio        = 1.;
+    double max_volume_ratio        = 1.;
+    unsigned int inverted          = 0;
+    unsigned int newton_iterations = 0;
+    unsigned int linear_iterations = 0;
+    double seconds                 = 0.; ///< since the start of the run
+
+    static std::vector<std::string>
+    column_names();
+
+    std::vector<double>
+    row() const;
+
+    /** What is no finite number, as "kinetic, total"; empty where all are. */
+    std::string
+    not_finite() const;
+  };
+
+
+  /** The worst of a run. */
+  struct Extremes
+  {
+    unsigned int energy_rises  = 0;  ///< steps in which the total energy rose by more than the work
+    double energy_risen        = 0.; ///< in these steps together [J]
+    unsigned int most_inverted = 0;  ///< cells
+    double min_volume_ratio    = 1.;
+    double max_volume_ratio    = 1.;
+    unsigned int not_finite    = 0; ///< measurements that are not finite: a run ends at the first
+  };
+} // namespace Supple
+
+#endif

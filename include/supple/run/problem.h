@@ -1,0 +1,49 @@
+#ifndef supple_problem_h
+#define supple_problem_h
+
+#include <supple/scene/parameters.h>
+#include <supple/time/model.h>
+
+#include <memory>
+
+namespace Supple
+{
+  /** The mechanical problem of a scene: the body with its forces and constraints, its
+   * configuration, and the operator of implicit steps with its solver. */
+  class Problem
+  {
+  public:
+    /** @throws InputError if something in the scene is wrong, or a static scene has a body that is
+     * not held */
+    Problem(const Parameters &scene, MPI_Comm communicator);
+
+    /** What integrators work with; it must not outlive the problem. */
+    Model
+    model();
+
+    const Parameters parameters;
+    const bool stationary;
+    Effort effort;
+    const Mesh mesh;
+    const Body body;
+    const Constraints constraints;
+    Forces forces;
+    Configuration configuration; ///< at the start, until somebody takes a step
+    ImplicitOperator implicit_operator;
+    const std::unique_ptr<LinearSolver> solver;
+
+  private:
+    /** @throws InputError */
+    void
+    require_held_body() const;
+
+    void
+    create_initial_state();
+
+    /** Sets the displacement of the rotation that the scene starts with. */
+    void
+    turn(Vector &displacement) const;
+  };
+} // namespace Supple
+
+#endif

@@ -1,0 +1,34 @@
+#ifndef supple_step_report_h
+#define supple_step_report_h
+
+#include <optional>
+
+namespace Supple
+{
+  /** What a step has to tell. */
+  struct StepReport
+  {
+    double time                    = 0.; ///< at the end of the step [s]; the load factor if static
+    double dt                      = 0.; ///< [s]
+    unsigned int newton_iterations = 0;
+    unsigned int linear_iterations = 0;
+    double load_work               = 0.; ///< by all loads but gravity, and by moved vertices [J]
+
+    /** Estimate, largest over all vertices [m]; where a method has none, not a number. */
+    double local_error = 0.;
+
+    /**
+     * Energy the step took out of the motion or put into the springs [J]: what the elastic energy
+     * did not get of it is dissipated. Where a method does not know it, what is missing in the
+     * balance of energies is taken for dissipated.
+     */
+    std::optional<double> expended;
+  };
+
+
+  /** The part of the largest energy by which the total energy may rise in a step: it covers
+   * round-off and inexact solutions. */
+  constexpr double energy_accuracy = 1e-9;
+} // namespace Supple
+
+#endif

@@ -1,0 +1,102 @@
+#ifndef supple_time_parameters_h
+#define supple_time_parameters_h
+
+#include <supple/input/parameter_file.h>
+#include <supple/mechanics/tangent.h>
+
+#include <string>
+
+namespace Supple
+{
+  /** The methods of a dynamic problem. */
+  enum class TimeMethod
+  {
+    backward_euler,
+    implicit_backward_euler,
+    implicit_midpoint,
+    sdirk2,
+    trbdf2,
+    esdirk3,
+    esdirk4,
+    esdirk5,
+    explicit2,
+    explicit3,
+    explicit4,
+    explicit5,
+    ida
+  };
+
+
+  /** Subsection Time: the problem, its method in time and its steps. */
+  struct TimeParameters
+  {
+    enum class Problem
+    {
+      dynamic,
+      stationary
+    };
+
+    enum class EnergyGuard
+    {
+      off,
+      warn,
+      reject
+    };
+
+    Problem problem               = Problem::dynamic;
+    TimeMethod method             = TimeMethod::backward_euler;
+    double step                   = 0.01;
+    unsigned int n_steps          = 100;
+    bool adaptive                 = false;
+    double relative_tolerance     = 1e-3;
+    double displacement_tolerance = 0.; ///< [m]; 0: by the size of the body
+    double velocity_tolerance     = 0.; ///< [m/s]; 0: from that of the displacement
+    double longest_step           = 0.; ///< [s]; 0: any
+    unsigned int maximum_order    = 2;  ///< of IDA
+    Tangent tangent               = Tangent::automatic;
+    double newton_tolerance       = 1e-8;
+    unsigned int newton_limit     = 100;
+    unsigned int n_retries        = 10;
+    EnergyGuard energy_guard      = EnergyGuard::off;
+    bool estimate_error           = false; ///< by a second run
+
+    void
+    declare(dealii::ParameterHandler &prm);
+
+    /** @throws InputError for settings that contradict each other */
+    void
+    check(const ParameterFile &scene) const;
+
+    /** As it is written. */
+    std::string
+    method_name() const;
+
+    bool
+    is_explicit() const;
+
+    /** With which power of the step the error falls; of ida its maximum order. */
+    unsigned int
+    order() const;
+
+    bool
+    has_variable_steps() const;
+
+    /** The time at the end [s]; the load factor of a static problem. */
+    double
+    end() const;
+
+    /** So short a time [s] that differences over it are derivatives, and so long that round-off is
+     * small beside them. */
+    double
+    derivative_interval() const;
+
+  private:
+    void
+    declare_tolerances(dealii::ParameterHandler &prm);
+
+    void
+    declare_newton(dealii::ParameterHandler &prm);
+  };
+} // namespace Supple
+
+#endif

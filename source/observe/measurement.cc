@@ -1,0 +1,76 @@
+#include <supple/observe/measurement.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Supple
+{
+  std::vector<std::string>
+  Measurement::column_names()
+  {
+    return {"step",
+            "time",
+            "dt",
+            "kinetic",
+            "elastic",
+            "potential",
+            "dissipated",
+            "total",
+            "work",
+            "px",
+            "py",
+            "pz",
+            "lx",
+            "ly",
+            "lz",
+            "min_volume_ratio",
+            "max_volume_ratio",
+            "inverted",
+            "newton_iterations",
+            "linear_iterations",
+            "seconds"};
+  }
+
+
+  std::vector<double>
+  Measurement::row() const
+  {
+    const auto &p = linear_momentum, &l = angular_momentum;
+    return {double(step),
+            time,
+            dt,
+            kinetic,
+            elastic,
+            potential,
+            dissipated,
+            total,
+            work,
+            p[0],
+            p[1],
+            p[2],
+            l[0],
+            l[1],
+            l[2],
+            min_volume_ratio,
+            max_volume_ratio,
+            double(inverted),
+            double(newton_iterations),
+            double(linear_iterations),
+            seconds};
+  }
+
+
+  std::string
+  Measurement::not_finite() const
+  {
+    const std::vector<double> values = row();
+    if (std::all_of(values.begin(), values.end(), [](const double x) { return std::isfinite(x); }))
+      return ""; // as in nearly all steps
+    const std::vector<std::string> names = column_names();
+    std::string list;
+    for (unsigned int i = 0; i < values.size(); ++i)
+      if (!std::isfinite(values[i]))
+        list += (list.empty() ? "" : ", ") + names[i];
+    return list;
+  }
+} // namespace Supple

@@ -1,0 +1,135 @@
+#include <supple/run/checkpoints.h>
+
+#include <supple/base/error.h>
+
+#include <nlohmann/json.hpp>
+
+namespace Supple
+{
+  using Json = nlohmann::json;
+
+  Checkpoints::Checkpoints(const std::string &folder,
+                           Problem &problem,
+                           TimeIntegrator &integrator,
+                           Diagnostics *const diagnostics,
+                           Course &course,
+                           const Listeners &listeners)
+    : Writer(folder, problem.effort)
+    , problem(problem)
+    , integrator(integrator)
+    , diagnostics(diagnostics)
+    , course(course)
+    , listeners(listeners)
+    , checkpoint(problem.body,
+                 problem.parameters.checkpoint,
+                 problem.parameters.as_used,
+                 !problem.stationary,
+                 folder)
+    , kept(std::make_unique<Json>(Json::object()))
+  {
+  }
+
+
+  std::vector<std::string>
+  Checkpoints::files()
+  {
+    return Checkpoint::files();
+  }
+
+
+  void
+  Checkpoints::open(const bool /* resumed */, const unsigned int /* step */)
+  {
+  }
+
+
+  std::vector<Vector *>
+  Checkpoints::kept_vectors() const
+  {
+    std::vector<Vector *> vectors = problem.configuration.vectors();
+    for (Vector *const vector : listeners.kept_vectors())
+      vectors.push_back(vector);
+    return vectors;
+  }
+
+
+  void
+  Checkpoints::resume()
+  {
+    if (!problem.parameters.checkpoint.resume)
+      return;
+    const auto saved = checkpoint.read(kept_vectors(), problem.configuration.vectors().size());
+    if (!saved)
+      return;
+    try
+      {
+        take(*saved);
+      }
+    catch (const Json::exception &)
+      {
+        checkpoint.refuse_content();
+      }
+    course.origin                  = checkpoint.origin();
+    course.origin_is_second_choice = checkpoint.was_damaged();
+  }
+
+
+  void
+  Checkpoints::take(const Json &saved)
+  {
+    course.load(saved.at("course"));
+    integrator.load(saved.at("integrator"));
+    problem.configuration.load_cells(saved.at("cells"), problem.effort);
+    problem.implicit_operator.load(saved.at("operator"));
+    if (diagnostics && !saved.contains("diagnostics"))
+      throw InputError(problem.parameters.origin("Output/History") +
+                       ": the run to go on from measured no energies, for it wrote neither a "
+                       "history nor frames. Set Output/History = false and Output/Frames = none "
+                       "as there, or Checkpoint/Resume = never to begin anew.");
+    if (diagnostics)
+      diagnostics->load(saved.at("diagnostics"));
+    *kept = saved.at("listeners");
+    listeners.load(*kept);
+  }
+
+
+  void
+  Checkpoints::write()
+  {
+    const PhaseTimer timer(effort, Phase::output);
+    listeners.save(*kept);
+    Json rest = {{"course", course.save()},
+                 {"integrator", integrator.save()},
+                 {"cells", problem.configuration.save_cells()},
+                 {"operator", problem.implicit_operator.save()},
+                 {"listeners", *kept}};
+    if (diagnostics)
+      rest["diagnostics"] = diagnostics->save();
+    problem.solver->forget(); // as a run that goes on from here
+    const auto vectors = kept_vectors();
+    checkpoint.write(course.now.step, {vectors.begin(), vectors.end()}, rest);
+  }
+
+
+  void
+  Checkpoints::begin(const Observation & /* now */, const bool /* resumed */)
+  {
+  }
+
+
+  bool
+  Checkpoints::after_step(const Observation &now)
+  {
+    if (problem.parameters.checkpoint.wanted() && checkpoint.due(now.measurement.step))
+      write();
+    return true;
+  }
+
+
+  void
+  Checkpoints::interrupted(const Observation & /* now */)
+  {
+    if (problem.parameters.checkpoint.wanted())
+      write();
+  }
+} // namespace Supple

@@ -1,0 +1,295 @@
+#include <supple/run/description.h>
+
+#include <supple/base/progress.h>
+#include <supple/base/text.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <sstream>
+
+namespace Supple
+{
+  using namespace dealii;
+
+  namespace
+  {
+    void
+    line(const std::string &name, const std::string &value)
+    {
+      std::cout << "  " << name << std::string(name.size() < 12 ? 12 - name.size() : 1, ' ')
+                << value << '\n';
+    }
+
+
+    /** "0 (32), 1 (16)" */
+    std::string
+    counts(const std::map<unsigned int, unsigned int> &number_of)
+    {
+      std::string text;
+      for (const auto &[id, n] : number_of)
+        text += (text.empty() ? "" : ", ") + std::to_string(id) + " (" + std::to_string(n) + ")";
+      return text;
+    }
+  } // namespace
+
+
+  Description::Description(const Problem &problem,
+                           const TimeIntegrator &integrator,
+                           const Probes &probes,
+                           const Diagnostics &diagnostics,
+                           const Course &course)
+    : problem(problem)
+    , integrator(integrator)
+    , probes(probes)
+    , diagnostics(diagnostics)
+    , course(course)
+  {
+  }
+
+
+  std::string
+  Description::section_in_words() const
+  {
+    std::ostringstream thickness;
+    thickness << problem.mesh.section.thickness << " m thick, ";
+    switch (problem.mesh.section.geometry)
+      {
+        case Geometry::plane_strain:
+          return "plane strain, " + thickness.str();
+        case Geometry::plane_stress:
+          return "plane stress, " + thickness.str();
+        case Geometry::axisymmetric:
+          return "axisymmetric, ";
+        default:
+          return "";
+      }
+  }
+
+
+  void
+  Description::print_mesh_details() const
+  {
+    const MeshReport &report = problem.mesh.report;
+    std::ostringstream worst;
+    worst << report.worst_quality << ", cell " << report.worst_cell << " at ("
+          << report.worst_position << "); 1 is regular, 0 is flat";
+    line("boundaries", counts(problem.mesh.boundaries) + "; id (number of faces)");
+    line("materials", counts(problem.mesh.materials) + "; id (number of cells)");
+    line("pieces", std::to_string(report.pieces.size()));
+    line("worst cell", worst.str());
+    line("repaired", std::to_string(report.repaired) + " inverted cells");
+    line("vertices",
+         std::to_string(report.unused_vertices) + " in no cell, " +
+           std::to_string(report.double_vertices) + " at the place of another");
+  }
+
+
+  std::string
+  Description::time_in_words() const
+  {
+    const TimeParameters &time = problem.parameters.time;
+    std::ostringstream text;
+    text << integrator.name() << ", ";
+    if (problem.stationary)
+      text << time.n_steps << " load steps";
+    else if (time.has_variable_steps())
+      text << "up to " << integrator.end << " s, relative tolerance " << time.relative_tolerance;
+    else
+      text << time.n_steps << " steps of " << time.step << " s";
+    return text.str();
+  }
+
+
+  void
+  Description::print(const bool in_detail) const
+  {
+    const Mesh &mesh                            = problem.mesh;
+    const std::array<const char *, 3> rotations = {
+      {"linear elasticity", "corotational, Gram-Schmidt", "corotational, polar"}};
+    std::ostringstream volume;
+    volume << mesh.volume;
+
+    std::cout << "Supple " << SUPPLE_VERSION << ", scene " << problem.parameters.scene_name << '\n';
+    line("body",
+         std::to_string(mesh.n_cells) + " " + mesh.cell_name() + ", " +
+           std::to_string(mesh.n_vertices) + " vertices in " + mesh.extent() + " m, " +
+           volume.str() + " m^3");
+    if (in_detail)
+      print_mesh_details();
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(mesh.communicator);
+    line("unknowns",
+         std::to_string(problem.body.n_dofs()) + ", of which " +
+           std::to_string(problem.constraints.n_held) + " are held; " +
+           (n_ranks == 1 ? "1 process" : std::to_string(n_ranks) + " processes"));
+    line("model",
+         section_in_words() +
+           rotations[static_cast<unsigned int>(problem.parameters.corotation.rotation)]);
+    line("time", time_in_words());
+    if (const auto stable = integrator.stable_step())
+      line("stable step", "up to " + stable->description());
+    if (problem.stationary || !problem.parameters.time.is_explicit())
+      line("solver", problem.solver->name() + " (" + problem.solver->reason + ")");
+    for (const std::string &text : probes.descriptions())
+      line("probe", text);
+    if (course.resumed())
+      line("resumed", "goes on from " + course.origin);
+    for (const std::string &text : warnings())
+      line("warning", text);
+    std::cout << std::flush;
+  }
+
+
+  std::vector<std::string>
+  Description::warnings() const
+  {
+    const Body &body              = problem.body;
+    std::vector<std::string> list = problem.mesh.report.warnings;
+    if (course.origin_is_second_choice)
+      list.push_back("Goes on from " + course.origin + "; checkpoint.cbor is damaged.");
+    if (course.resumed() && course.now.step == course.steps_before && integrator.finished())
+      list.push_back("Nothing was left to do: step " + std::to_string(course.now.step) +
+                     " of the run to go on from is at or beyond the end that is asked for "
+                     "(subsection Time).");
+    if (!problem.constraints.free_pieces_in_words().empty())
+      list.push_back(problem.constraints.free_pieces_in_words());
+    list.insert(list.end(), probes.warnings().begin(), probes.warnings().end());
+    if (problem.parameters.corotation.rotation == RotationMethod::gram_schmidt)
+      list.push_back(
+        "Gram-Schmidt rotations have no elastic energy: 'elastic' is the energy of the same "
+        "formula, and "
+        "'dissipated' need not grow. They depend on the axes.");
+    const double poisson = body.largest_poisson();
+    if (poisson > 0.45 && !body.has_patches() &&
+        problem.mesh.section.geometry != Geometry::plane_stress)
+      {
+        std::ostringstream text;
+        text << "Linear " << problem.mesh.cell_name()
+             << " are too stiff (they lock) at a Poisson ratio above 0.45; it is " << poisson
+             << ". Material/Volumetric locking cure = patches helps.";
+        list.push_back(text.str());
+      }
+    if (!problem.stationary && problem.parameters.time.method == TimeMethod::ida &&
+        problem.parameters.time.maximum_order > 2)
+      list.push_back(
+        "Backward differentiation of an order above 2 (Time/Maximum order) is not "
+        "stable for oscillations that hardly decay: these may grow without bounds.");
+    for (const auto &more : {warnings_of_motion(), warnings_of_solver()})
+      list.insert(list.end(), more.begin(), more.end());
+    return list;
+  }
+
+
+  std::vector<std::string>
+  Description::warnings_of_motion() const
+  {
+    std::vector<std::string> list;
+    if (diagnostics.extremes().energy_rises > 0 &&
+        problem.parameters.time.energy_guard != TimeParameters::EnergyGuard::off)
+      {
+        const unsigned int n = diagnostics.extremes().energy_rises;
+        list.push_back("In " + std::to_string(n) + (n == 1 ? " step" : " steps") +
+                       " the total energy rose by more than the work that was done.");
+      }
+    if (!energy_from_nowhere().empty())
+      list.push_back(energy_from_nowhere());
+    if (diagnostics.extremes().most_inverted > 0)
+      list.push_back("Up to " + std::to_string(diagnostics.extremes().most_inverted) +
+                     " cells at once were inside out, with a volume ratio down to " +
+                     digits(diagnostics.extremes().min_volume_ratio, 3) +
+                     " (history.csv): stress and strain there mean nothing.");
+    if (!strains_too_large().empty())
+      list.push_back(strains_too_large());
+    if (problem.effort.jumps > 0)
+      list.push_back("In " + std::to_string(problem.effort.jumps) +
+                     " steps a prescribed motion jumps, or swings to and fro: what it does to the "
+                     "body depends on the step and the mesh. Move it over some steps, such as by "
+                     "min(t/0.1, 1), or take shorter ones.");
+    return list;
+  }
+
+
+  std::vector<std::string>
+  Description::warnings_of_solver() const
+  {
+    const Effort &effort = problem.effort;
+    std::vector<std::string> list;
+    if (effort.stand_in_solves > 0)
+      list.push_back(problem.solver->name() + " failed in " +
+                     std::to_string(effort.stand_in_solves) + " of " +
+                     std::to_string(effort.solves) + " systems, which " +
+                     problem.solver->stand_in_name() + " solved in its stead.");
+    // Each solver has met its own criterion, and what was left over was solved for three times.
+    const double tolerance = problem.parameters.solver.tolerance;
+    if (effort.max_relative_residual > 2. * tolerance)
+      list.push_back("The worst linear solve left a relative residual of " +
+                     digits(effort.max_relative_residual, 2) + " where " + digits(tolerance, 2) +
+                     " was asked for (Solver/Tolerance): round-off of a badly conditioned matrix.");
+    return list;
+  }
+
+
+  std::string
+  Description::strains_too_large() const
+  {
+    const Extremes &worst = diagnostics.extremes();
+    std::string text;
+    if (worst.min_volume_ratio < 0.5 && worst.most_inverted == 0) // inverted cells are told anyway
+      text = "squeezed to " + digits(worst.min_volume_ratio, 3);
+    if (worst.max_volume_ratio > 2.)
+      text += std::string(text.empty() ? "" : " and ") + "swollen to " +
+              digits(worst.max_volume_ratio, 3);
+    return text.empty() ? ""
+                        : "Cells were " + text +
+                            " times their volume at rest (history.csv): elasticity of small "
+                            "strains means little there.";
+  }
+
+
+  std::string
+  Description::energy_from_nowhere() const
+  {
+    if (-course.now.dissipated <= 0.2 * course.largest_energy || !problem.forces.have_energy())
+      return "";
+    std::ostringstream text;
+    text << "The time stepping added " << -course.now.dissipated << " J to a motion of at most "
+         << course.largest_energy
+         << " J: it is not to be trusted. Take shorter steps, variable steps or another method.";
+    return text.str();
+  }
+
+
+  void
+  print_result(const Summary &summary,
+               const std::string &folder,
+               const std::string &report,
+               const std::vector<std::string> &told)
+  {
+    std::cout << "done: " << summary.steps << " steps in " << readable_duration(summary.run_seconds)
+              << ", " << std::lround(summary.steps / summary.run_seconds) << " steps/s";
+    if (summary.has_mass)
+      std::cout << "; motion " << summary.largest_motion << " m";
+    if (summary.has_mass && std::isfinite(summary.error_estimate))
+      std::cout << ", sum of local errors " << summary.error_estimate << " m";
+    std::cout << "; " << summary.frames << " frames in " << folder << std::endl;
+    for (const std::string &text : summary.warnings)
+      if (std::find(told.begin(), told.end(), text) == told.end())
+        line("warning", text);
+    if (!report.empty())
+      line("report", report);
+    const StepDoubling *const second = summary.step_doubling;
+    if (!second)
+      return;
+    if (second->failure.empty() && summary.largest_motion > 0.)
+      std::cout << "error: " << second->largest << " m ("
+                << 100. * second->largest / summary.largest_motion << " % of the motion), "
+                << second->last << " m at the end, by a second run with " << second->name << " in "
+                << readable_duration(second->seconds) << std::endl;
+    else if (!second->failure.empty())
+      std::cout << "error: unknown, for the second run failed: " << second->failure << std::endl;
+  }
+} // namespace Supple

@@ -1,0 +1,140 @@
+#include <supple/run/problem.h>
+
+#include <supple/base/error.h>
+#include <supple/base/expression.h>
+#include <supple/scene/read_scene.h>
+
+#include <deal.II/base/multithread_info.h>
+#include <deal.II/physics/transformations.h>
+
+#include <array>
+
+namespace Supple
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** The rigid motions of the body that are free, in words. */
+    std::string
+    free_rigid_motions(const Constraints &constraints)
+    {
+      if (constraints.n_rigid_motions == 1)
+        return "its one rigid motion, along its axis, is free";
+      return std::to_string(constraints.n_free_rigid_motions) + " of its " +
+             (constraints.n_rigid_motions == 6 ? "six" : "three") + " rigid motions are free";
+    }
+  } // namespace
+
+
+  Problem::Problem(const Parameters &scene, const MPI_Comm communicator)
+    : parameters(scene)
+    , stationary(parameters.time.problem == TimeParameters::Problem::stationary)
+    , mesh(make_mesh(parameters, communicator))
+    , body(mesh, parameters.material, parameters.solver.threads, parameters.file)
+    , constraints(body, parameters.constraints, parameters.motions, parameters.file)
+    , forces(body,
+             parameters.material,
+             parameters.corotation,
+             parameters.damping,
+             parameters.loads,
+             parameters.file)
+    , configuration(body, forces.elastic().cell_law(), !stationary)
+    , implicit_operator(body,
+                        constraints,
+                        forces,
+                        configuration,
+                        parameters.damping,
+                        parameters.corotation,
+                        !stationary,
+                        effort)
+    , solver(LinearSolver::create(implicit_operator, parameters.solver, parameters.file, effort))
+  {
+    dealii::MultithreadInfo::set_thread_limit(body.n_threads); // deal.II's vectors have as many
+    require_held_body();
+    create_initial_state();
+  }
+
+
+  Model
+  Problem::model()
+  {
+    return {body,
+            constraints,
+            forces,
+            configuration,
+            implicit_operator,
+            *solver,
+            parameters.time,
+            parameters.damping,
+            parameters.material,
+            parameters.file,
+            effort};
+  }
+
+
+  void
+  Problem::require_held_body() const
+  {
+    const std::string free_pieces = constraints.free_pieces_in_words();
+    if (stationary && !free_pieces.empty())
+      throw InputError("A static scene needs a body that is held: " + free_pieces);
+    if (stationary && constraints.n_free_rigid_motions > 0)
+      throw InputError(
+        "A static scene needs a body that is held: " + free_rigid_motions(constraints) +
+        ", so that the stiffness is singular. Hold a boundary or a region "
+        "(subsection Constraints), or make the problem dynamic.");
+  }
+
+
+  void
+  Problem::turn(Vector &displacement) const
+  {
+    const double degrees = parameters.start.rotation.norm();
+    if (degrees == 0.)
+      return;
+    const auto R =
+      Physics::Transformations::Rotations::rotation_matrix_3d(parameters.start.rotation / degrees,
+                                                              degrees * numbers::PI / 180.);
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      {
+        const Tensor<1, 3> arm = body.position(node) - parameters.start.rotation_center;
+        const Tensor<1, 3> u   = R * arm - arm;
+        for (unsigned int i = 0; i < 3; ++i)
+          displacement.local_element(3 * node + i) = u[i];
+      }
+  }
+
+
+  void
+  Problem::create_initial_state()
+  {
+    const std::array<std::pair<const char *, std::string>, 2> starts = {
+      {{"Start/Displacement", parameters.start.displacement},
+       {"Start/Velocity", parameters.start.velocity}}};
+    State &state                        = configuration.state;
+    const std::vector<Vector *> vectors = configuration.vectors();
+    turn(state.displacement);
+    for (std::size_t k = 0; k < vectors.size(); ++k)
+      {
+        const Expression expression(starts[k].second, 3, parameters.origin(starts[k].first));
+        for (unsigned int node = 0; node < body.n_owned && !expression.is_zero(); ++node)
+          for (unsigned int i = 0; i < 3; ++i)
+            vectors[k]->local_element(3 * node + i) += expression.value(body.position(node), 0., i);
+        constraints.set_zero(*vectors[k]);
+        if (!all_finite(*vectors[k]))
+          throw InputError(parameters.origin(starts[k].first) +
+                           ": it is not a finite number at every vertex.");
+      }
+    if (!constraints.move())
+      return;
+    constraints.set_displacement(state.displacement, 0.);
+    if (!stationary)
+      constraints.set_velocity(state.velocity, 0., parameters.time.derivative_interval());
+    for (std::size_t k = 0; k < vectors.size(); ++k)
+      if (!all_finite(*vectors[k]))
+        throw InputError(std::string("A displacement of subsection Motion ") +
+                         (k == 0 ? "is not a finite number" : "has no finite derivative") +
+                         " at time 0.");
+  }
+} // namespace Supple

@@ -1,0 +1,79 @@
+#include <supple/run/results.h>
+
+#include <supple/base/files.h>
+#include <supple/report/report.h>
+#include <supple/report/report_page.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+
+namespace Supple
+{
+  namespace
+  {
+    const std::string summary_file = "summary.json";
+  }
+
+
+  Results::Results(const std::string &folder,
+                   const Parameters &parameters,
+                   const MPI_Comm communicator)
+    : folder(folder)
+    , writes(!folder.empty())
+    , writes_history(writes && parameters.output.history)
+    , writes_frames(writes && parameters.output.frames != OutputParameters::Frames::none)
+    , parameters(parameters)
+    , communicator(communicator)
+    , writes_report(parameters.output.report && (writes_history || writes_frames))
+    , own_files({summary_file, page_file})
+  {
+  }
+
+
+  void
+  Results::open(const bool resumed, const unsigned int step) const
+  {
+    if (!writes)
+      return;
+    prepare_output_folder(folder, communicator, [&] {
+      std::filesystem::create_directories(folder);
+      if (!resumed)
+        remove_files(folder, own_files);
+      write_whole_file(folder + "/parameters.prm", parameters.as_used);
+      for (const auto &writer : writers)
+        writer->open(resumed, step);
+    });
+  }
+
+
+  void
+  Results::write_end(const Summary &summary, const Film *const film) const
+  {
+    if (!writes || dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
+      return;
+    const Json json = summary.to_json();
+    write_whole_file(folder + "/" + summary_file, json.dump(2) + "\n");
+    if (!writes_report)
+      return;
+    write_report(folder, parameters, json, film);
+    if (film && !parameters.checkpoint.wanted())
+      film->remove(); // no run will go on from here
+  }
+
+
+  std::string
+  Results::report_file() const
+  {
+    return writes_report ? folder + "/" + page_file : "";
+  }
+
+
+  std::string
+  Results::whereabouts(const std::string &which) const
+  {
+    return writes ? " The results " + which + " are in " + folder + "." : "";
+  }
+} // namespace Supple

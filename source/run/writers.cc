@@ -1,0 +1,308 @@
+#include <supple/run/writers.h>
+
+#include <supple/base/files.h>
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+
+namespace Supple
+{
+  namespace
+  {
+    /** A table with a row for each state, the start included. */
+    std::unique_ptr<CsvFile>
+    open_table(const std::string &file,
+               const std::vector<std::string> &columns,
+               const bool resumed,
+               const unsigned int step)
+    {
+      return resumed ? std::make_unique<CsvFile>(file, step + 1ul)
+                     : std::make_unique<CsvFile>(file, columns);
+    }
+  } // namespace
+
+
+  HistoryTable::HistoryTable(const std::string &folder, Effort &effort)
+    : Writer(folder, effort)
+  {
+  }
+
+
+  std::vector<std::string>
+  HistoryTable::files()
+  {
+    return {"history.csv"};
+  }
+
+
+  void
+  HistoryTable::open(const bool resumed, const unsigned int step)
+  {
+    table = open_table(folder + "/" + files()[0], Measurement::column_names(), resumed, step);
+  }
+
+
+  bool
+  HistoryTable::after_step(const Observation &now)
+  {
+    const PhaseTimer timer(effort, Phase::output);
+    if (table)
+      table->write_row(now.measurement.row());
+    return true;
+  }
+
+
+  ProbeTable::ProbeTable(const std::string &folder, Effort &effort, const Probes &probes)
+    : Writer(folder, effort)
+    , probes(probes)
+  {
+  }
+
+
+  std::vector<std::string>
+  ProbeTable::files()
+  {
+    return {"probes.csv"};
+  }
+
+
+  void
+  ProbeTable::open(const bool resumed, const unsigned int step)
+  {
+    table = open_table(folder + "/" + files()[0], probes.column_names(), resumed, step);
+  }
+
+
+  bool
+  ProbeTable::after_step(const Observation &now)
+  {
+    const PhaseTimer timer(effort, Phase::output);
+    if (table)
+      table->write_row(now.probes);
+    return true;
+  }
+
+
+  ProfileTables::ProfileTables(const std::string &folder,
+                               Effort &effort,
+                               const Profiles &profiles,
+                               const unsigned int every)
+    : Writer(folder, effort)
+    , profiles(profiles)
+    , every(every)
+    , tables(profiles.names().size())
+  {
+  }
+
+
+  std::vector<std::string>
+  ProfileTables::files()
+  {
+    return {"profile_*.csv"};
+  }
+
+
+  void
+  ProfileTables::open(const bool resumed, const unsigned int /* step */)
+  {
+    const std::vector<std::string> names = profiles.names();
+    for (unsigned int p = 0; p < tables.size(); ++p)
+      {
+        const std::string file = folder + "/profile_" + names[p] + ".csv";
+        tables[p].file         = resumed ? std::make_unique<CsvFile>(file, tables[p].n_rows)
+                                         : std::make_unique<CsvFile>(file, Profiles::column_names());
+      }
+  }
+
+
+  bool
+  ProfileTables::after_step(const Observation &now)
+  {
+    if (now.measurement.step % every == 0)
+      write(now);
+    return true;
+  }
+
+
+  void
+  ProfileTables::end(const Observation &now)
+  {
+    write(now);
+  }
+
+
+  void
+  ProfileTables::write(const Observation &now)
+  {
+    const unsigned int step = now.measurement.step;
+    if (written && step == last_written_step)
+      return;
+    const PhaseTimer timer(effort, Phase::output);
+    for (unsigned int p = 0; p < tables.size(); ++p)
+      {
+        const auto rows = profiles.rows(p, step, now.measurement.time, now.state.displacement);
+        tables[p].n_rows += rows.size();
+        if (tables[p].file)
+          tables[p].file->write_rows(rows);
+      }
+    written           = true;
+    last_written_step = step;
+  }
+
+
+  std::string
+  ProfileTables::name() const
+  {
+    return "profiles";
+  }
+
+
+  nlohmann::json
+  ProfileTables::save() const
+  {
+    std::vector<unsigned long> n_rows;
+    for (const Table &table : tables)
+      n_rows.push_back(table.n_rows);
+    return {{"rows", n_rows}, {"written", written}, {"step", last_written_step}};
+  }
+
+
+  void
+  ProfileTables::load(const nlohmann::json &saved)
+  {
+    for (unsigned int p = 0; p < tables.size(); ++p)
+      tables[p].n_rows = saved.at("rows").at(p);
+    written           = saved.at("written");
+    last_written_step = saved.at("step");
+  }
+
+
+  FrameWriter::FrameWriter(const std::string &folder,
+                           Effort &effort,
+                           const Configuration &configuration,
+                           const ElasticForce &elastic,
+                           const OutputParameters &parameters)
+    : Writer(folder, effort)
+    , frames(configuration, elastic, parameters, folder)
+  {
+  }
+
+
+  std::vector<std::string>
+  FrameWriter::files()
+  {
+    return Frames::files();
+  }
+
+
+  void
+  FrameWriter::open(const bool resumed, const unsigned int /* step */)
+  {
+    std::filesystem::create_directories(folder + "/solution");
+    if (resumed && frames.n_written() == 0) // of a run before those that this one goes on from
+      remove_files(folder, files());
+  }
+
+
+  std::string
+  FrameWriter::objection(const Observation &now)
+  {
+    if ((frames.due(now.measurement) || now.last) && !frames.can_hold(now.measurement.step))
+      return "the motion or its stress is larger than a frame can hold (3.4e38)";
+    return "";
+  }
+
+
+  void
+  FrameWriter::begin(const Observation &now, const bool resumed)
+  {
+    if (!resumed || frames.n_written() == 0)
+      end(now);
+  }
+
+
+  bool
+  FrameWriter::after_step(const Observation &now)
+  {
+    const PhaseTimer timer(effort, Phase::output);
+    if (frames.due(now.measurement))
+      frames.write(now.measurement);
+    return true;
+  }
+
+
+  void
+  FrameWriter::end(const Observation &now)
+  {
+    const PhaseTimer timer(effort, Phase::output);
+    if (frames.can_hold(now.measurement.step))
+      frames.write(now.measurement);
+  }
+
+
+  std::string
+  FrameWriter::name() const
+  {
+    return "frames";
+  }
+
+
+  nlohmann::json
+  FrameWriter::save() const
+  {
+    return frames.save();
+  }
+
+
+  void
+  FrameWriter::load(const nlohmann::json &saved)
+  {
+    frames.load(saved);
+  }
+
+
+  Vector *
+  FrameWriter::kept_vector()
+  {
+    return &frames.displacement_of_last();
+  }
+
+
+  ErrorTable::ErrorTable(const std::string &folder, Effort &effort, const StepDoubling *second_run)
+    : Writer(folder, effort)
+    , second_run(second_run)
+  {
+  }
+
+
+  std::vector<std::string>
+  ErrorTable::files()
+  {
+    return {"error.csv"};
+  }
+
+
+  void
+  ErrorTable::open(const bool /* resumed */, const unsigned int /* step */)
+  {
+    table = std::make_unique<CsvFile>(folder + "/" + files()[0],
+                                      std::vector<std::string>{"step", "time", "error"});
+  }
+
+
+  void
+  ErrorTable::begin(const Observation & /* now */, const bool /* resumed */)
+  {
+  }
+
+
+  bool
+  ErrorTable::after_step(const Observation &now)
+  {
+    const std::optional<double> error = second_run->error();
+    if (error && table)
+      table->write_row({double(now.measurement.step), now.measurement.time, *error});
+    return true;
+  }
+} // namespace Supple

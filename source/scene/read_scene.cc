@@ -1,0 +1,179 @@
+#include <supple/scene/read_scene.h>
+
+#include <supple/base/error.h>
+#include <supple/base/expression.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <sstream>
+
+namespace Supple
+{
+  namespace
+  {
+    constexpr const char *out_of_plane =
+      ": the body lies in the plane z = 0 and does not leave it; the third component must be 0.";
+    constexpr const char *not_symmetric =
+      ": an axisymmetric body looks the same from all sides; along x, away from the axis, it must "
+      "be 0.";
+
+    /** Refuses expressions whose third component is not the number 0. */
+    void
+    check_third_component(const std::string &text, const std::string &origin)
+    {
+      const auto components = dealii::Utilities::split_string_list(text, ';');
+      if (components.size() == 3 && !Expression::says_zero(components[2]))
+        throw InputError(origin + out_of_plane);
+    }
+
+
+    void
+    check_plane(const Parameters &parameters)
+    {
+      const LoadParameters &loads  = parameters.loads;
+      const StartParameters &start = parameters.start;
+      for (const auto &[entry, text] : std::vector<std::pair<std::string, std::string>>{
+             {"Loads/Body force", loads.body_force},
+             {"Loads/Nodal force", loads.nodal_force},
+             {"Loads/Traction", loads.traction},
+             {"Loads/Gravity", loads.gravity_expressions()},
+             {"Start/Displacement", start.displacement},
+             {"Start/Velocity", start.velocity}})
+        check_third_component(text, parameters.origin(entry));
+      for (unsigned int m = 0; m < parameters.motions.size(); ++m)
+        {
+          const auto components =
+            dealii::Utilities::split_string_list(parameters.motions[m].displacement, ';');
+          if (components.size() == 3 && components[2] != "free")
+            check_third_component(parameters.motions[m].displacement,
+                                  parameters.origin(motion_section(m) + "/Displacement"));
+        }
+      if (start.rotation[0] != 0. || start.rotation[1] != 0.)
+        throw InputError(parameters.origin("Start/Rotation") +
+                         ": the body lies in the plane z = 0 and turns about z alone; the first "
+                         "two components must be 0.");
+    }
+
+
+    /** A static problem has neither velocity nor damping; an explicit method needs a diagonal mass
+     * matrix. */
+    void
+    check_problem(const Parameters &parameters)
+    {
+      const TimeParameters &time         = parameters.time;
+      const MaterialParameters &material = parameters.material;
+      if (time.is_explicit() && !material.lumped && material.vertex_mass == 0.)
+        throw InputError(
+          parameters.origin("Time/Method") +
+          ": an explicit method needs a diagonal mass matrix: Material/Mass = lumped.");
+      if (time.problem != TimeParameters::Problem::stationary)
+        return;
+      if (parameters.damping.any())
+        throw InputError(
+          parameters.origin("Time/Problem") +
+          ": a static problem knows no velocity; take the damping out of the scene.");
+      const std::string velocity = parameters.origin("Start/Velocity");
+      if (!Expression(parameters.start.velocity, 3, velocity).is_zero())
+        throw InputError(velocity + ": a static problem (" + parameters.origin("Time/Problem") +
+                         ") knows no velocity; it must be 0; 0; 0.");
+    }
+
+
+    /** Where the matrix is taken anew in each step, a tolerance of its rotations means nothing. */
+    void
+    check_warp_tolerance(const Parameters &parameters)
+    {
+      if (parameters.corotation.warp_tolerance == 0.)
+        return;
+      const std::string origin   = parameters.origin("Corotation/Warp tolerance");
+      const TimeParameters &time = parameters.time;
+      if (time.problem == TimeParameters::Problem::stationary)
+        throw InputError(origin + ": a static problem takes its matrix anew; it must be 0.");
+      if (parameters.material.cure != MaterialParameters::LockingCure::none)
+        throw InputError(origin +
+                         ": with a volumetric locking cure the matrix is taken anew in each step; "
+                         "it must be 0.");
+      if (parameters.corotation.rotation == RotationMethod::polar &&
+          time.method != TimeMethod::backward_euler && time.tangent != Tangent::frozen)
+        throw InputError(origin + ": " + time.method_name() +
+                         " takes the derivatives of the rotations, which change with the stress; "
+                         "it must be 0, or Time/Tangent = frozen.");
+    }
+
+
+    void
+    check(const Parameters &parameters)
+    {
+      parameters.material.check(parameters.file);
+      parameters.mesh.check(parameters.file);
+      parameters.time.check(parameters.file);
+      parameters.plane.check(parameters.file);
+      check_warp_tolerance(parameters);
+      check_problem(parameters);
+    }
+  } // namespace
+
+
+  void
+  check_directions(const Parameters &parameters, const Section &section)
+  {
+    if (section.plane())
+      check_plane(parameters);
+    else
+      {
+        const Section preset;
+        const Section &unused   = parameters.plane.section;
+        const std::string words = ": it is for bodies of triangles; this one has tetrahedra.";
+        if (unused.geometry != PlaneParameters().section.geometry)
+          throw InputError(parameters.origin("Plane/Model") + words);
+        if (unused.thickness != preset.thickness)
+          throw InputError(parameters.origin("Plane/Thickness") + words);
+      }
+    if (section.geometry == Geometry::plane_stress &&
+        parameters.material.cure == MaterialParameters::LockingCure::patches)
+      throw InputError(parameters.origin("Material/Volumetric locking cure") +
+                       ": in plane stress nothing locks, and there are no patches; it must be "
+                       "none.");
+    if (section.axisymmetric())
+      {
+        const std::string gravity = parameters.loads.gravity_expressions();
+        if (!Expression::says_zero(gravity.substr(0, gravity.find(';'))))
+          throw InputError(parameters.origin("Loads/Gravity") + not_symmetric);
+        if (parameters.start.rotation.norm() != 0.)
+          throw InputError(parameters.origin("Start/Rotation") +
+                           ": an axisymmetric body can't be turned; it must be 0, 0, 0.");
+      }
+  }
+
+
+  Mesh
+  make_mesh(const Parameters &parameters, const MPI_Comm communicator)
+  {
+    Mesh mesh(parameters.mesh,
+              parameters.plane,
+              parameters.material.cure == MaterialParameters::LockingCure::patches,
+              parameters.file,
+              communicator);
+    check_directions(parameters, mesh.section);
+    return mesh;
+  }
+
+
+  Parameters
+  read_scene(const std::string &file, const std::vector<Override> &overrides)
+  {
+    Parameters parameters;
+    dealii::ParameterHandler prm;
+    parameters.declare(prm);
+    parameters.file       = ParameterFile(file);
+    parameters.scene_name = parameters.file.name();
+    parameters.file.parse(prm, overrides);
+
+    std::ostringstream used;
+    prm.print_parameters(used, dealii::ParameterHandler::PRM);
+    parameters.as_used = used.str();
+
+    check(parameters);
+    return parameters;
+  }
+} // namespace Supple

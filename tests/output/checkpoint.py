@@ -1,0 +1,139 @@
+"""A run that was stopped, or killed at any moment, goes on as if nothing had happened."""
+
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import runner
+
+folder = pathlib.Path(tempfile.mkdtemp(prefix="supple-"))
+ALWAYS = {"Solver/Tolerance": 1e-12, "Output/Motion": 0.05, "Checkpoint/Every": 7, "Checkpoint/Resume": "auto"}
+
+
+def largest_difference(whole, parts):
+    """Of two tables; displacements, velocities and forces of probes are each measured by their largest component."""
+    runner.check(len(whole) == len(parts), f"{len(whole)} and {len(parts)} rows")
+    columns = [name for name in whole[0] if not name.endswith(("seconds", "iterations"))]
+    quantity = {name: name[:-1] if "." in name else name for name in columns}
+    size = {}
+    for name in columns:
+        largest = max(abs(row[name]) for row in whole)
+        size[quantity[name]] = max(largest, size.get(quantity[name], 1e-9))
+    return max(abs(a[name] - b[name]) / size[quantity[name]] for a, b in zip(whole, parts) for name in columns)
+
+
+def compare(whole, parts, what, tolerance=1e-12):
+    """Every row of the tables, the times of the frames."""
+    for table in ("history.csv", "probes.csv"):
+        difference = largest_difference(whole.table(table), parts.table(table))
+        runner.check(difference < tolerance, f"{what}: {table} differs by {difference}")
+    runner.check(whole.frame_times() == parts.frame_times(), f"{what}: frames")
+    for frame in range(len(whole.frame_times())):
+        runner.check(any((parts.folder / "solution").glob(f"frame_{frame:04}.*vtu")), f"{what}: a frame is missing")
+
+
+def run(name, settings, ranks=1):
+    status, _, error = runner.run(runner.BAR, "--quiet", "--output", folder / name, *runner.overrides(settings), ranks=ranks)
+    return status, error
+
+
+# Stopped by its own end, then made longer: with all that is kept over steps.
+cases = {"polar": {}, "linear": {"Corotation/Rotation": "none"},
+         "moved": {"Motion/Of": "region y == 0", "Motion/Displacement": "free; free; 2*sin(3*t)", "Start/Velocity": "0; 0; 0",
+                   "Damping/Stiffness factor": 0.002, "Damping/Mass factor": 0.1},
+         "trbdf2": {"Time/Method": "trbdf2", "Time/Step": 0.01, "Time/Newton tolerance": 1e-13},
+         "kept": {"Corotation/Warp tolerance": 0.5}, "multigrid": {"Solver/Method": "cg-amg", "Mesh/Box cubes": "4, 8, 4"},
+         "static": {"Time/Problem": "static", "Start/Velocity": "0; 0; 0"}}
+SIGNALS = {"kept": [signal.SIGTERM, signal.SIGKILL]}     # of the others, chance takes one
+for name, case, how in [(name, case, how) for name, case in cases.items()
+                        for how in SIGNALS.get(name, [random.choice([signal.SIGTERM, signal.SIGKILL])])]:
+    shutil.rmtree(folder / name, ignore_errors=True)
+    settings = {**ALWAYS, **case, "Time/Steps": 40}
+    whole = runner.simulate(runner.BAR, {**settings, "Checkpoint/Resume": "never"})
+    parts = {**settings, "Output/Folder": "elsewhere"}
+    process = subprocess.Popen([runner.SUPPLE, str(runner.BAR), "--quiet", "--output", str(folder / name),
+                                *runner.overrides({**settings, "Output/Frames": "adaptive"})],
+                               env=runner.ENVIRONMENT, stderr=subprocess.DEVNULL)
+    history = folder / name / "history.csv"
+    while process.poll() is None and not (history.exists() and history.read_text().count("\n") > 12):
+        pass
+    process.send_signal(how)
+    process.wait()
+    for ranks in [2 if name == "polar" else 1, 1]:
+        status, error = run(name, parts, ranks)
+        runner.check(status == 0, error)
+    compare(whole, runner.Results(folder / name), name, 1e-8 if name == "polar" else 1e-12)
+
+# kill -9 at random instants, several times in one run.
+settings = {**ALWAYS, "Time/Steps": 16000, "Output/Frames": "interval", "Output/Interval": 28}
+whole = runner.simulate(runner.BAR, {**settings, "Checkpoint/Resume": "never"})
+kills = 0
+
+
+def rows():
+    history = folder / "killed" / "history.csv"
+    return history.read_text().count("\n") if history.exists() else 0
+
+
+for kills in range(1, 21):
+    process = subprocess.Popen([runner.SUPPLE, str(runner.BAR), "--quiet", "--output", str(folder / "killed"),
+                                *runner.overrides(settings)], env=runner.ENVIRONMENT, start_new_session=True)
+    smallest = None    # a run that goes on first cuts what was written after its checkpoint
+    deadline = time.monotonic() + 60 * runner.PATIENCE
+    while time.monotonic() < deadline and process.poll() is None:
+        now = rows()
+        smallest = now if smallest is None or now < smallest else smallest
+        if now > smallest + 15:
+            break
+    grown = process.poll() is None and rows() > smallest
+    time.sleep(random.uniform(0, 0.05))
+    alive = process.poll() is None
+    os.killpg(process.pid, signal.SIGKILL) if alive else None
+    process.wait()
+    runner.check(grown and alive, f"kill {kills}: the run had made no step, or had ended")
+status, error = run("killed", settings)
+runner.check(status == 0, error)
+compare(whole, runner.Results(folder / "killed"), f"killed {kills} times")
+print(f"killed {kills} times")
+
+# What does not fit is refused and left as it is.
+file = folder / "polar" / "checkpoint.cbor"
+good = file.read_bytes()
+status, error = run("polar", {**ALWAYS, "Time/Steps": 60, "Material/Young modulus": 2e8})
+runner.check(status == 1 and "another scene" in error and "Young modulus" in error, error)
+runner.check(file.read_bytes() == good, "the checkpoint was touched")
+file.write_bytes(good[:1000] + b"x" + good[1001:])
+status, error = run("polar", {**ALWAYS, "Time/Steps": 60})
+runner.check(status == 0, f"the one before is whole: {error}")
+warnings = runner.Results(folder / "polar").summary()["warnings"]
+runner.check(any("checkpoint.previous.cbor; checkpoint.cbor is damaged" in text for text in warnings), str(warnings))
+for name in ("checkpoint.cbor", "checkpoint.previous.cbor"):
+    (folder / "polar" / name).write_bytes(b"supple checkpoint 1\n")
+status, error = run("polar", {**ALWAYS, "Time/Steps": 60})
+runner.check(status == 1 and "damaged" in error, error)
+status, error = run("polar", {**ALWAYS, "Time/Steps": 60, "Checkpoint/Resume": "never"})
+runner.check(status == 0, error)
+
+# Frames may be asked for later: they begin where the run is gone on with, at step 14.
+settings = {"Checkpoint/Every": 7, "Checkpoint/Resume": "auto", "Time/Steps": 20}
+status, error = run("frames", {**settings, "Output/Frames": "none"})
+runner.check(status == 0 and not (folder / "frames" / "solution.pvd").exists(), error)
+status, error = run("frames", {**settings, "Time/Steps": 40})
+runner.check(status == 0, error)
+times = [row["time"] for row in runner.Results(folder / "frames").table("history.csv")]
+frames = runner.Results(folder / "frames").frame_times()
+runner.check(len(times) == 41 and all(a < b for a, b in zip(times, times[1:])), f"rows at {times}")
+runner.check(abs(min(frames) - times[14]) < 1e-9 and abs(max(frames) - times[40]) < 1e-9, f"frames at {frames}")
+for steps, kind in [(50, "none"), (60, "adaptive")]:
+    status, error = run("frames", {**settings, "Time/Steps": steps, "Output/Frames": kind})
+    runner.check(status == 0, error)
+later = runner.Results(folder / "frames").frame_times()
+runner.check(later[0] == frames[0] and later[-1] > frames[-1], f"frames at {later}, before at {frames}")
+runner.check(all(a < b for a, b in zip(later, later[1:])), f"frames at {later}")

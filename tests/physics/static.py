@@ -1,0 +1,44 @@
+"""Corotational equilibrium from tiny to large loads, and what a failed step leaves behind."""
+
+import pathlib
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import runner
+
+linear = runner.simulate(runner.STATIC, {})
+sag = linear.probes()[-1]["n28.uz"]
+
+# The smaller the load, the closer to linear elasticity; round-off must not stop Newton's method.
+for gravity in [9.81, 1, 1e-2, 1e-4, 1e-6]:
+    for solver in ["ldlt", "cg-ml"]:
+        results = runner.simulate(runner.STATIC, {"Corotation/Rotation": "polar", "Loads/Gravity": f"0, 0, -{gravity}",
+                                                  "Solver/Method": solver, "Solver/Tolerance": 1e-10})
+        found = results.probes()[-1]["n28.uz"] / (sag * gravity / 9.81)
+        runner.check(abs(found - 1) < 5e-4 * gravity + 1e-5, f"gravity {gravity}, {solver}: {found} of the linear sag")
+
+# A body that starts far from its equilibrium is measured as it is, and finds the same equilibrium.
+start = {"Corotation/Rotation": "polar", "Start/Displacement": "0; 0; 0.05*(y - 12)*(y - 12)"}
+bent = runner.simulate(runner.STATIC, start)
+dynamic = runner.simulate(runner.STATIC, {**start, "Time/Problem": "dynamic", "Time/Steps": 1})
+runner.check(bent.history()[0]["elastic"] == dynamic.history()[0]["elastic"], "the energy at the start")
+straight = runner.simulate(runner.STATIC, {"Corotation/Rotation": "polar"})
+difference = abs(bent.probes()[-1]["n28.uz"] - straight.probes()[-1]["n28.uz"])
+runner.check(difference < 1e-7, f"another equilibrium, {difference} m away")
+home = runner.simulate(runner.STATIC, {**start, "Loads/Gravity": "0, 0, 0"})
+runner.check(abs(home.probes()[-1]["n28.uz"]) < 1e-9, "without a load it does not come home")
+
+# A failed step leaves the state before it.
+folder = tempfile.mkdtemp(prefix="supple-")
+settings = {"Corotation/Rotation": "polar", "Loads/Gravity": "0, 0, -300", "Time/Steps": 4, "Output/Frames": "every",
+            "Time/Newton iterations": 10, "Time/Tangent": "frozen"}
+status, _, error = runner.run(runner.STATIC, "--output", folder, *runner.overrides(settings))
+runner.check(status == 2 and "Step " in error, error)
+failed = runner.Results(folder)
+good = len(failed.history()) - 1
+again = runner.simulate(runner.STATIC, {**settings, "Time/Newton iterations": 100})
+runner.check(1 <= good < 4 and len(failed.frame_times()) == good + 1, f"{good} good steps")
+name = f"solution/frame_{good:04}.vtu"
+contents = [text.split("-->")[-1] for text in ((failed.folder / name).read_text(), (again.folder / name).read_text())]
+runner.check(contents[0] == contents[1], "the last frame after a failure is not that of the last good step")
