@@ -32,7 +32,7 @@ namespace Supple
 
 
   Deformation
-  ElasticForce::deformation(const Configuration &configuration, double) const
+  ElasticForce::deformation(const Configuration &configuration) const
   {
     const GhostValues values(configuration.displacement());
     Deformation result = law->deformation(configuration.rotations, values.data());

@@ -21,7 +21,7 @@ namespace Supple
                                              const ParameterFile &);
 
     /** Of each kind of load that a scene can have; null where it has none. */
-    constexpr std::array<Maker, 3> load_makers = {{DeadLoads::make, Pressure::make, Gravity::make}};
+    constexpr Maker load_makers[] = {DeadLoads::make, Pressure::make, Gravity::make};
   } // namespace
 
 
@@ -157,14 +157,19 @@ namespace Supple
   Energies
   Forces::energies(const Configuration &configuration,
                    const double time,
+                   const double load_factor,
                    Deformation &deformation) const
   {
-    deformation                = of_cells->deformation(configuration, time);
+    deformation                = of_cells->deformation(configuration);
     std::vector<double> energy = {deformation.elastic, 0.}; // elastic, potential
     for (const auto &force : list)
-      if (force.get() != of_cells && force->account() != EnergyAccount::work)
-        energy[force->account() == EnergyAccount::elastic ? 0 : 1] +=
-          force->energy(configuration, time);
+      {
+        const EnergyAccount account = force->account();
+        const bool is_elastic       = account == EnergyAccount::elastic;
+        if (force.get() != of_cells && (is_elastic || account == EnergyAccount::potential))
+          energy[is_elastic ? 0 : 1] +=
+            (force->is_load() ? load_factor : 1.) * force->energy(configuration, time);
+      }
     std::vector<double> all(energy.size());
     Utilities::MPI::sum(energy, body.mesh.communicator, all);
     return {all[0], all[1]};

@@ -1,4 +1,3 @@
-#include <supple/base/csv_file.h>
 #include <supple/base/files.h>
 #include <supple/base/text.h>
 #include <supple/identification/identification_table.h>

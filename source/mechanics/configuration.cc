@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <functional>
+#include <stdexcept>
 
 namespace Supple
 {
@@ -28,8 +29,11 @@ namespace Supple
             for (unsigned int k = 0; k < n_numbers; ++k)
               own.push_back(pack(c / n_lanes, k)[c % n_lanes]);
           }
+      const auto parts = Utilities::MPI::gather(body.mesh.communicator, own);
+      if (parts.empty())
+        return {};
       std::vector<double> values(n_numbers * static_cast<std::size_t>(body.mesh.n_cells));
-      for (const auto &part : Utilities::MPI::gather(body.mesh.communicator, own))
+      for (const auto &part : parts)
         for (std::size_t at = 0; at < part.size(); at += 1 + n_numbers)
           std::copy_n(&part[at + 1], n_numbers, &values[n_numbers * std::size_t(part[at])]);
       return values;
@@ -42,10 +46,12 @@ namespace Supple
             const unsigned int n_numbers,
             const PackOf &pack)
     {
+      if (values.size() != n_numbers * static_cast<std::size_t>(body.mesh.n_cells))
+        throw std::out_of_range("values of cells of another mesh");
       for (std::size_t c = 0; c < body.cell_nodes.size(); ++c)
         for (unsigned int k = 0; k < n_numbers; ++k)
           pack(c / n_lanes, k)[c % n_lanes] =
-            values.at(n_numbers * static_cast<std::size_t>(body.serial_cell[c]) + k);
+            values[n_numbers * static_cast<std::size_t>(body.serial_cell[c]) + k];
     }
 
 
@@ -127,7 +133,7 @@ namespace Supple
   void
   Configuration::reject(Effort &effort)
   {
-    Assert(in_step, ExcMessage("no step was begun"));
+    AssertThrow(in_step, ExcMessage("no step was begun"));
     state    = start;
     internal = start_internal;
     update_rotations(effort);

@@ -127,7 +127,8 @@ namespace Supple
   {
     // A static scene has a part of the loads at time 1.
     Deformation deformation;
-    const Energies energies = forces.energies(configuration, stationary ? 1. : time, deformation);
+    const Energies energies =
+      forces.energies(configuration, stationary ? 1. : time, stationary ? time : 1., deformation);
 
     MotionSums motion;
     if (configuration.state.has_velocity())
@@ -149,7 +150,7 @@ namespace Supple
     result.linear_momentum  = {{global[2], global[3], global[4]}};
     result.angular_momentum = {{global[5], global[6], global[7]}};
     result.elastic          = energies.elastic;
-    result.potential        = (stationary ? time : 1.) * energies.potential;
+    result.potential        = energies.potential;
     result.min_volume_ratio = Utilities::MPI::min(deformation.min_volume_ratio, communicator);
     result.max_volume_ratio = Utilities::MPI::max(deformation.max_volume_ratio, communicator);
     result.total            = result.kinetic + result.elastic + result.potential;

@@ -1,6 +1,5 @@
 #include <supple/output/checkpoint.h>
 
-#include <supple/base/csv_file.h>
 #include <supple/base/error.h>
 #include <supple/base/files.h>
 
@@ -21,7 +20,7 @@ namespace Supple
 
   namespace
   {
-    const std::string head = "supple checkpoint 1\n";
+    const std::string any_head = "supple checkpoint ", head = any_head + "2\n";
 
     std::string
     checksum(const std::string &content)
@@ -34,7 +33,8 @@ namespace Supple
     }
 
 
-    /** The content of a file; nothing if it is damaged or not there. */
+    /** The content of a file; nothing if it is damaged or not there.
+     * @throws InputError if another version of the program has written it */
     std::optional<std::string>
     whole_content(const std::string &file)
     {
@@ -42,7 +42,11 @@ namespace Supple
       std::ostringstream text;
       text << stream.rdbuf();
       const std::string all = text.str();
-      const auto end        = all.find('\n', std::min(head.size(), all.size()));
+      if (all.rfind(any_head, 0) == 0 && all.rfind(head, 0) != 0 && all.find('\n') < all.size() - 1)
+        throw InputError(file +
+                         " is of another version of this program. Name another folder with "
+                         "--output, or set Checkpoint/Resume = never, to begin anew.");
+      const auto end = all.find('\n', std::min(head.size(), all.size()));
       if (!stream || all.rfind(head, 0) != 0 || end == std::string::npos)
         return {};
       const std::string content = all.substr(end + 1);
@@ -112,11 +116,12 @@ namespace Supple
       {
         if (line.rfind("subsection ", 0) == 0)
           section = line.substr(11);
+        const auto first  = line.find_first_not_of(' ');
         const bool is_end = section == "Time" && line.find("set Steps ") != std::string::npos;
         const bool is_threads =
           section == "Solver" && line.find("set Threads ") != std::string::npos;
         if (section != "Output" && section != "Checkpoint" && !(is_end && dynamic) && !is_threads &&
-            line != "" && line[0] != '#')
+            first != std::string::npos && line[first] != '#')
           kept << line << '\n';
       }
     kept << body.mesh.n_cells << " cells, " << body.mesh.n_vertices << " vertices in "

@@ -1,6 +1,5 @@
 #include <supple/report/report_page.h>
 
-#include <supple/base/csv_file.h>
 #include <supple/base/error.h>
 #include <supple/base/files.h>
 

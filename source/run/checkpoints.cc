@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <stdexcept>
+
 namespace Supple
 {
   using Json = nlohmann::json;
@@ -66,6 +68,10 @@ namespace Supple
         take(*saved);
       }
     catch (const Json::exception &)
+      {
+        checkpoint.refuse_content();
+      }
+    catch (const std::out_of_range &)
       {
         checkpoint.refuse_content();
       }

@@ -160,7 +160,7 @@ namespace Supple
         , Az(A.body.n_local)
         , p(A.body.n_local)
         , q(A.body.n_local)
-        , guesses(!A.configuration.patches)
+        , guesses(!A.patches())
         , previous(A.body.partitioner)
       {
       }
@@ -239,11 +239,10 @@ namespace Supple
       do_solve(Vector &x, const Vector &b, Vector &residual) override
       {
         const double size   = b.l2_norm();
-        const double before = A.configuration.patches ? size : begin(x, b, residual, size);
+        const double before = A.patches() ? size : begin(x, b, residual, size);
         const unsigned int n_iterations =
-          A.configuration.patches
-            ? solve_from_zero(x, b, residual, DoublePrecision(multigrid, r, z, Az))
-            : solve_in_single_precision(x, b, residual, before);
+          A.patches() ? solve_from_zero(x, b, residual, DoublePrecision(multigrid, r, z, Az))
+                      : solve_in_single_precision(x, b, residual, before);
         if (guesses)
           previous.add(x, b, residual);
         rule.solved(n_iterations, std::log(before / residual.l2_norm()), before < size);

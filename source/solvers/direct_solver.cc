@@ -95,7 +95,7 @@ namespace Supple
       const SparseMatrix &
       whole_matrix() const
       {
-        return A.configuration.patches ? matrix : matrix_of_cells;
+        return A.patches() ? matrix : matrix_of_cells;
       }
 
       void
@@ -120,7 +120,7 @@ namespace Supple
         double *value = matrix_of_cells.valuePtr();
         for_each_entry(
           [&](const std::size_t, const std::size_t, const double entry) { *value++ = entry; });
-        if (A.configuration.patches)
+        if (A.patches())
           {
             const SparseMatrix square_root = square_root_of_patches();
             matrix =
@@ -134,7 +134,7 @@ namespace Supple
       SparseMatrix
       square_root_of_patches() const
       {
-        const VolumetricPatches &patches = *A.configuration.patches;
+        const VolumetricPatches &patches = *A.patches();
         std::vector<Eigen::Triplet<double>> entries;
         for (unsigned int p = 0; p < patches.partitioner->size(); ++p)
           {

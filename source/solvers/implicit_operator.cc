@@ -22,9 +22,8 @@ namespace Supple
     : body(body)
     , constraints(constraints)
     , forces(forces)
-    , configuration(configuration)
     , damping(damping)
-    , rotating(configuration)
+    , configuration(configuration)
     , effort(effort)
     , warp_tolerance(corotation.warp_tolerance * M_PI / 180.)
     , pattern(make_pattern())
@@ -143,10 +142,11 @@ namespace Supple
 
 
   nlohmann::json
-  ImplicitOperator::save() const
+  ImplicitOperator::save()
   {
     if (!renewable)
       return nullptr;
+    made = false;
     return {{"mass", factors.mass},
             {"velocity", factors.velocity},
             {"displacement", factors.displacement},
@@ -185,7 +185,7 @@ namespace Supple
     else
       {
         const PhaseTimer timer(effort, Phase::assembly);
-        forces.elastic().renew_tangent(rotating, warp_tolerance, factors, A);
+        forces.elastic().renew_tangent(configuration, warp_tolerance, factors, A);
         mask(A);
         ++effort.assemblies;
         effort.cells_warped += here;
@@ -198,9 +198,9 @@ namespace Supple
   ImplicitOperator::assemble_all()
   {
     if (renewable)
-      rotating.rotations.kept = configuration.rotations.current;
+      configuration.rotations.kept = configuration.rotations.current;
     else
-      rotating.rotations.kept.clear();
+      configuration.rotations.kept.clear();
     assemble(A, 0.);
     made = true;
     ++effort.assemblies;

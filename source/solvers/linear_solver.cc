@@ -4,6 +4,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <map>
 #include <sstream>
 
 namespace Supple
@@ -85,26 +86,15 @@ namespace Supple
       return multigrid(A);
     }
 
-    std::unique_ptr<LinearSolver>
-    make(const Method method,
-         const ImplicitOperator &A,
-         const SolverParameters &parameters,
-         Effort &effort)
-    {
-      switch (method)
-        {
-          case Method::ldlt:
-            return make_ldlt_solver(A, parameters, effort);
-          case Method::cholmod:
-            return make_cholmod_solver(A, parameters, effort);
-          case Method::cg_amg:
-            return make_cg_amg_solver(A, parameters, effort);
-          case Method::cg_jacobi:
-            return make_cg_jacobi_solver(A, parameters, effort);
-          default:
-            return make_cg_ml_solver(A, parameters, effort);
-        }
-    }
+    using Maker = std::unique_ptr<LinearSolver> (*)(const ImplicitOperator &,
+                                                    const SolverParameters &,
+                                                    Effort &);
+
+    const std::map<Method, Maker> makers = {{Method::ldlt, make_ldlt_solver},
+                                            {Method::cholmod, make_cholmod_solver},
+                                            {Method::cg_amg, make_cg_amg_solver},
+                                            {Method::cg_ml, make_cg_ml_solver},
+                                            {Method::cg_jacobi, make_cg_jacobi_solver}};
 
     /** The solver that takes over when the chosen one fails; none for direct solvers, whose
      * failure means that A is not positive definite. */
@@ -130,7 +120,7 @@ namespace Supple
   PreconditioningMatrix::PreconditioningMatrix(const ImplicitOperator &A)
     : A(A)
   {
-    if (A.configuration.patches)
+    if (A.patches())
       bounded = std::make_unique<SymmetricBlockMatrix>(A.matrix().pattern);
   }
 
@@ -172,7 +162,7 @@ namespace Supple
       throw InputError(scene.origin("Solver/Method") +
                        ": ldlt and cholmod work on one process; on several take cg-amg or auto.");
 
-    std::unique_ptr<LinearSolver> solver = make(method, A, parameters, effort);
+    std::unique_ptr<LinearSolver> solver = makers.at(method)(A, parameters, effort);
     solver->reason                       = reason;
     if (parameters.method == Method::automatic)
       solver->stand_in = make_stand_in(method, A, parameters, effort);

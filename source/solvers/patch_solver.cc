@@ -12,7 +12,7 @@ namespace Supple
 {
   PatchSystem::PatchSystem(const ImplicitOperator &A)
     : A(A)
-    , patches(*A.configuration.patches)
+    , patches(*A.patches())
   {
     A.body.initialize(scratch);
   }
@@ -146,8 +146,7 @@ namespace Supple
     // Measured on the needle: at a Poisson ratio of 0.48 a third of the time of minimal residuals.
     constexpr double largest_poisson = 0.49;
 
-    const bool needed =
-      A.configuration.patches && A.body.largest_poisson() > largest_poisson + 1e-9;
+    const bool needed = A.patches() && A.body.largest_poisson() > largest_poisson + 1e-9;
     return needed ? std::make_unique<PatchSystem>(A) : nullptr;
   }
 } // namespace Supple

@@ -1,6 +1,5 @@
 #include <supple/study/study.h>
 
-#include <supple/base/csv_file.h>
 #include <supple/base/error.h>
 #include <supple/base/files.h>
 #include <supple/base/interrupt.h>

@@ -1,4 +1,3 @@
-#include <supple/base/csv_file.h>
 #include <supple/base/files.h>
 #include <supple/output/gnuplot.h>
 #include <supple/study/study_table.h>

@@ -42,7 +42,7 @@ namespace Supple
   {
     const Configuration &configuration = model.configuration;
     Deformation deformation;
-    const Energies energies = model.forces.energies(configuration, time, deformation);
+    const Energies energies = model.forces.energies(configuration, time, 1., deformation);
     const GhostValues displacement(configuration.displacement()),
       velocity(configuration.velocity());
     const MotionSums motion = model.body.cells->motion(displacement.data(), velocity.data());

@@ -57,7 +57,7 @@ namespace Supple
     Vector &displacement         = configuration.state.displacement;
     if (!model.forces.change_operator() || !model.forces.have_energy())
       {
-        displacement += correction;
+        displacement.add(model.forces.largest_step(configuration, correction), correction);
         update_residual(load_factor);
         return;
       }

@@ -306,7 +306,7 @@ namespace
   test_operator()
   {
     std::printf("The operator against differences of the forces, with rotations held\n");
-    LinkedBody linked(scene("subsection Time\n set Method = implicit-midpoint\nend\n"));
+    LinkedBody linked(scene("subsection Time\n set Method = implicit midpoint\nend\n"));
     linked.bend();
     const double gamma = 0.03, h = 1e-4, mass_factor = linked.parameters.damping.mass_factor;
     linked.forces.update_tangent(Tangent::frozen, linked.configuration, 0., linked.effort);

@@ -49,7 +49,8 @@ cases = {"polar": {}, "linear": {"Corotation/Rotation": "none"},
          "moved": {"Motion/Of": "region y == 0", "Motion/Displacement": "free; free; 2*sin(3*t)", "Start/Velocity": "0; 0; 0",
                    "Damping/Stiffness factor": 0.002, "Damping/Mass factor": 0.1},
          "trbdf2": {"Time/Method": "trbdf2", "Time/Step": 0.01, "Time/Newton tolerance": 1e-13},
-         "kept": {"Corotation/Warp tolerance": 0.5}, "multigrid": {"Solver/Method": "cg-amg", "Mesh/Box cubes": "4, 8, 4"},
+         "kept": {"Corotation/Warp tolerance": 0.5},
+         "kept multigrid": {"Corotation/Warp tolerance": 3, "Solver/Method": "cg-amg", "Mesh/Box cubes": "4, 8, 4"}, "multigrid": {"Solver/Method": "cg-amg", "Mesh/Box cubes": "4, 8, 4"},
          "static": {"Time/Problem": "static", "Start/Velocity": "0; 0; 0"}}
 SIGNALS = {"kept": [signal.SIGTERM, signal.SIGKILL]}     # of the others, chance takes one
 for name, case, how in [(name, case, how) for name, case in cases.items()
@@ -114,6 +115,10 @@ status, error = run("polar", {**ALWAYS, "Time/Steps": 60})
 runner.check(status == 0, f"the one before is whole: {error}")
 warnings = runner.Results(folder / "polar").summary()["warnings"]
 runner.check(any("checkpoint.previous.cbor; checkpoint.cbor is damaged" in text for text in warnings), str(warnings))
+for name in ("checkpoint.cbor", "checkpoint.previous.cbor"):
+    (folder / "polar" / name).write_bytes(b"supple checkpoint 1\n12\nxyz")
+status, error = run("polar", {**ALWAYS, "Time/Steps": 60})
+runner.check(status == 1 and "another version" in error, error)
 for name in ("checkpoint.cbor", "checkpoint.previous.cbor"):
     (folder / "polar" / name).write_bytes(b"supple checkpoint 1\n")
 status, error = run("polar", {**ALWAYS, "Time/Steps": 60})

@@ -60,19 +60,19 @@ stray = max(abs(row["total"] + row["dissipated"] - row["work"] - start) for row 
 runner.check(stray < 1e-10, f"energies out of balance by {stray}")
 
 # Gravity that changes in time is a body force; its potential and the work of its change balance.
-plain = {"Start/Velocity": "0; 0; 0", "Time/Steps": 40, "Solver/Tolerance": 1e-12, "Probes/Points": "far: 4, 12, 4"}
+plain = {"Start/Velocity": "0; 0; 0", "Time/Steps": 40, "Solver/Tolerance": 1e-12, "Probes/Points": "tip: 2, 0, 2"}
 ramp = "9.81*min(t/0.4, 1)"
 falls = runner.simulate(runner.BAR, {**plain, "Loads/Gravity": f"0; 0; -{ramp}"})
 pushed = runner.simulate(runner.BAR, {**plain, "Loads/Gravity": "0, 0, 0", "Loads/Body force": f"0; 0; -1000*{ramp}"})
 for one, two in zip(falls.probes(), pushed.probes()):
-    runner.check(abs(one["far.uz"] - two["far.uz"]) < 1e-9, f"at {one['time']}: gravity {one['far.uz']}, body force {two['far.uz']}")
-runner.check(abs(falls.probes()[-1]["far.uz"]) > 0.01, "gravity moves nothing")
-for method in ["backward-euler", "trbdf2"]:
+    runner.check(abs(one["tip.uz"] - two["tip.uz"]) < 1e-9, f"at {one['time']}: gravity {one['tip.uz']}, body force {two['tip.uz']}")
+runner.check(abs(falls.probes()[-1]["tip.uz"]) > 0.01, "gravity moves nothing")
+for method in ["backward euler", "trbdf2"]:
     rows = runner.simulate(runner.BAR, {**plain, "Loads/Gravity": f"0; 0; -{ramp}", "Time/Method": method}).history()
     largest = max(row["kinetic"] + row["elastic"] for row in rows)
     stray = max(abs(row["total"] + row["dissipated"] - row["work"]) for row in rows) / largest
     runner.check(stray < 1e-9, f"{method}: energies out of balance by {stray}")
-    runner.check(rows[-1]["work"] > 1e-3 * largest, f"{method}: the change of gravity does no work")
+    runner.check(rows[-1]["work"] < -1e-3 * largest, f"{method}: the change of gravity does no work")
     runner.check(rows[-1]["dissipated"] > 0, f"{method}: dissipated {rows[-1]['dissipated']}")
 constant = [runner.simulate(runner.BAR, {**plain, "Loads/Gravity": gravity}).history() for gravity in ("0, 0, -9.81", "0; 0; -9.81")]
 runner.check(runner.largest_difference(*constant, ["potential", "elastic", "kinetic"]) == 0, "expressions differ from numbers")

@@ -60,14 +60,14 @@ namespace Supple
     add_force(const Configuration &configuration, double time, double *f) const override;
 
     double
-    energy(const Configuration &configuration, double time) const override
+    energy(const Configuration &configuration, double /*time*/) const override
     {
-      return deformation(configuration, time).elastic;
+      return deformation(configuration).elastic;
     }
 
     /** Energy and volume ratios in one sweep. */
     Deformation
-    deformation(const Configuration &configuration, double time) const;
+    deformation(const Configuration &configuration) const;
 
     /** For each cell of the body, with the pressure of patches. */
     std::vector<CellState>

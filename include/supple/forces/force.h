@@ -13,7 +13,8 @@ namespace Supple
   {
     elastic,   ///< its energy is part of the column elastic
     potential, ///< its energy is part of the column potential
-    work       ///< what it does is part of the column work
+    work,      ///< what it does is part of the column work
+    dissipated ///< it has no energy: what it takes is part of the column dissipated
   };
 
 
@@ -65,8 +66,8 @@ namespace Supple
     virtual void
     add_force(const Configuration &configuration, double time, double *f) const = 0;
 
-    /** This process's part of the energy [J]. Of a force without energy, that of a force that stays
-     * what it is, -f.u. */
+    /** This process's part of the energy [J]. A load without energy gives that of a force that
+     * stays what it is, -f.u, for the line search. */
     virtual double
     energy(const Configuration &configuration, double time) const = 0;
 
@@ -82,21 +83,24 @@ namespace Supple
       return 0.;
     }
 
-    /** What it has dissipated since the start of the step [J]; this process's part. */
+    /** What it has dissipated since the start of the step [J]; this process's part. Asked in static
+     * scenes: in motion the balance of energies tells it. */
     virtual double
     dissipated(const Configuration &, double /*time*/) const
     {
       return 0.;
     }
 
-    /** The largest part, up to 1, of a correction [m] that it allows. The same on all processes. */
+    /** The largest part, up to 1, of a correction [m] that it allows Newton's method of a static
+     * scene. The same on all processes. */
     virtual double
     largest_step(const Configuration &, const Vector &) const
     {
       return 1.;
     }
 
-    /** Adds the nodes that the pattern of the operator must couple for this force. */
+    /** Adds the nodes that the pattern of the operator must couple for this force. Each process
+     * that owns one of a pair must have the other as a ghost. */
     virtual void
     add_couplings(Couplings &) const
     {
@@ -123,7 +127,7 @@ namespace Supple
     {
     }
 
-    /** A -= velocity df/dv + displacement df/du; where mass goes with it, A += mass M. */
+    /** A -= velocity df/dv + displacement df/du. The force of the cells also adds mass M. */
     virtual void
     add_tangent(const Configuration &, const TangentFactors &, SymmetricBlockMatrix &) const
     {

@@ -84,9 +84,13 @@ namespace Supple
     void
     set_working(Vector &f, const Configuration &configuration, double time) const;
 
-    /** Energies and volume ratios; collective. @param deformation of this process's cells */
+    /** Energies, with a part of the loads, and volume ratios; collective.
+     * @param deformation of this process's cells */
     Energies
-    energies(const Configuration &configuration, double time, Deformation &deformation) const;
+    energies(const Configuration &configuration,
+             double time,
+             double load_factor,
+             Deformation &deformation) const;
 
     /** The energy that equilibrium makes least, with this part of the loads [J]; collective. */
     double

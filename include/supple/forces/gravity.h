@@ -38,14 +38,14 @@ namespace Supple
     work_of_time(const Configuration &configuration,
                  double time_before,
                  double time,
-                 double weight) const override;
+                 double weight_of_start) const override;
 
   private:
     const Vector &
     force_at(const Configuration &configuration, double time) const override;
 
     void
-    set_weight(Vector &weight, double time) const;
+    set_weight(Vector &to, double time) const;
 
     const Body &body;
     const Expression acceleration;

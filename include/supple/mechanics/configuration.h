@@ -106,7 +106,7 @@ namespace Supple
     save_cells() const;
 
     /** The same taken back, after displacement and velocity; updates the rotations. Collective.
-     * @throws nlohmann::json::exception if @p saved is something else */
+     * @throws nlohmann::json::exception, std::out_of_range if @p saved is something else */
     void
     load_cells(const nlohmann::json &saved, Effort &effort);
 

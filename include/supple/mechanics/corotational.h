@@ -60,7 +60,7 @@ namespace Supple
     bool
     has_energy() const
     {
-      return method != RotationMethod::gram_schmidt;
+      return method == RotationMethod::none || method == RotationMethod::polar;
     }
 
     bool

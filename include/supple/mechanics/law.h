@@ -4,7 +4,6 @@
 #include <supple/mechanics/cells.h>
 #include <supple/mechanics/tangent.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 

@@ -16,9 +16,12 @@ namespace Supple
    *   rotation(F), rotation_in_plane(F)           R of each cell, I for a law without
    *   stress(batch, R, F)                         first Piola-Kirchhoff stress over R: R^T P [Pa]
    *   energy_density(batch, R, F)                 [J/m^3]
-   *   stress_change(batch, R, dF), Blocks         the part of the tangent with R held
+   *   stress_change(batch, R, dF), Blocks         the part of the tangent with R held; Blocks has
+   * h, shear(), entry() and hoop_stiffness rotated_gradients(batch, R)                 h_a = R g_a
    *   Turning, turning(batch, R, F, mean_stress, definite), turning_product(), turning_block()
    *                                               the rest of it, which can be projected
+   *
+   * Stiffness damping counts on a stress that is linear in F with R held, up to a constant.
    */
   template <class Formulas>
   class LawSweeps : public Law

@@ -19,7 +19,10 @@ namespace Supple
     double potential  = 0.; ///< of gravity [J], zero at rest position
     double dissipated = 0.; ///< by damping and by the time stepping since the start [J]
     double total      = 0.; ///< kinetic + elastic + potential [J]
-    double work       = 0.; ///< of all loads and of moved vertices since the start [J]
+
+    /** Of loads without a potential, of moved vertices and of the change of gravity in time, since
+     * the start [J]. */
+    double work = 0.;
 
     std::array<double, 3> linear_momentum{{}};  ///< [kg m/s]
     std::array<double, 3> angular_momentum{{}}; ///< [kg m^2/s]

@@ -21,7 +21,7 @@ namespace Supple
   {
   public:
     /** @param diagnostics null if nobody asks for energies
-     *  @param listeners   of the run, this one included or not */
+     *  @param listeners   of the run */
     Checkpoints(const std::string &folder,
                 Problem &problem,
                 TimeIntegrator &integrator,

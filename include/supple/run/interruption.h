@@ -31,6 +31,12 @@ namespace Supple
       return !guard->requested(communicator);
     }
 
+    void
+    end(const Observation & /* now */) override
+    {
+      guard.reset();
+    }
+
   private:
     const MPI_Comm communicator;
     std::optional<InterruptGuard> guard; ///< from begin() on

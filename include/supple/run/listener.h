@@ -46,8 +46,8 @@ namespace Supple
         after_step(now);
     }
 
-    /** Receives the state after a step. @return whether the run may go on; else it is interrupted
-     */
+    /** Receives the state after a step. @return whether the run may go on, else it is interrupted;
+     * the same on all processes */
     virtual bool
     after_step(const Observation &now) = 0;
 

@@ -40,9 +40,10 @@ namespace Supple
     bool
     assemble(double gamma);
 
-    /** What a checkpoint keeps beside the configuration: of what A with kept rotations is made. */
+    /** What a checkpoint keeps beside the configuration: of what A with kept rotations is made. The
+     * next A is assembled from these, as in a run that goes on from the checkpoint. */
     nlohmann::json
-    save() const;
+    save();
 
     /** The next A is made with the rotations that the configuration keeps. */
     void
@@ -60,8 +61,8 @@ namespace Supple
     void
     mass_vmult(Vector &y, const Vector &x) const;
 
-    /** y = K' x with what rotations add: that of A if it can be taken from there, with x = 0 where
-     * the body is held; otherwise from the cells. */
+    /** y = K' x, with x = 0 where the body is held: taken out of A where A has K' alone beside the
+     * mass, otherwise computed from the forces. */
     void
     stiffness_vmult(Vector &y, const Vector &x) const;
 
@@ -98,8 +99,14 @@ namespace Supple
     const Body &body;
     const Constraints &constraints;
     const Forces &forces;
-    const Configuration &configuration;
     const DampingParameters &damping;
+
+    /** What resists to a change of volume in place of the cells; null if they do it themselves. */
+    const VolumetricPatches *
+    patches() const
+    {
+      return configuration.patches.get();
+    }
 
   private:
     void
@@ -126,7 +133,7 @@ namespace Supple
     void
     find_masked_entries();
 
-    Configuration &rotating; ///< the configuration, of which the kept rotations change here
+    Configuration &configuration; ///< of which the kept rotations change here
     Effort &effort;
     const double warp_tolerance; ///< [rad]
     const SymmetricPattern pattern;
@@ -134,7 +141,7 @@ namespace Supple
     TangentFactors factors;
     double diagonal = 0.;    ///< beside them
     bool renewable  = false; ///< A has kept rotations
-    bool made       = true;  ///< false where only its kept rotations are known
+    bool made       = true;  ///< false where A must be assembled from them
     std::unique_ptr<SymmetricScalarMatrix> M;
     std::vector<std::size_t> masked_lower;    ///< positions in A.lower
     std::vector<std::size_t> masked_diagonal; ///< positions in A.diagonal

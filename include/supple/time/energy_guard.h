@@ -5,8 +5,8 @@
 
 namespace Supple
 {
-  /** Detects steps in which the total energy of the body rises by more than the work that is done
-   * on it. */
+  /** Detects steps in which the total energy of the body rises by more than the work of the step,
+   * StepReport::load_work. */
   class EnergyGuard
   {
   public:

@@ -12,7 +12,7 @@ namespace Supple
     double dt                      = 0.; ///< [s]
     unsigned int newton_iterations = 0;
     unsigned int linear_iterations = 0;
-    double load_work               = 0.; ///< by all loads but gravity, and by moved vertices [J]
+    double load_work               = 0.; ///< as in Measurement::work, of this step [J]
 
     /** Estimate, largest over all vertices [m]; where a method has none, not a number. */
     double local_error = 0.;

@@ -26,8 +26,8 @@ namespace Supple
     virtual StepReport
     advance(bool observed) = 0;
 
-    /** What a checkpoint has to keep of it beside the state; and what the steps that follow depend
-     * on else is forgotten, so that they are the same as those of a run that goes on from there. */
+    /** State beyond the configuration that a resumed run needs. Also resets the history of the
+     * method, so that the running and the resumed run take identical steps. */
     virtual nlohmann::json
     save();
 
