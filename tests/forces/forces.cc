@@ -2,6 +2,7 @@
 // equilibrium; among them a link between two vertices that share no cell, which the program has
 // not.
 
+#include <supple/mechanics/corotational.h>
 #include <supple/mechanics/law_sweeps.h>
 #include <supple/mechanics/selection.h>
 #include <supple/observe/diagnostics.h>
@@ -409,7 +410,7 @@ namespace
   {
     std::printf("What a configuration gives back\n");
     LinkedBody linked(scene(""));
-    const Remembering law({RotationMethod::polar}, *linked.body.cells);
+    const Remembering law(Corotational{RotationMethod::polar}, *linked.body.cells);
     Configuration configuration(linked.body, law, true);
     const auto turn = [&](const double size) {
       for (unsigned int node = 0; node < linked.body.n_owned; ++node)
