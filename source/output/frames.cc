@@ -25,6 +25,7 @@ namespace Supple
     , body(configuration.body)
     , parameters(parameters)
     , folder(folder)
+    , vtu(*body.mesh.parts)
   {
     body.initialize(last_displacement);
     if (parameters.report)
@@ -175,32 +176,15 @@ namespace Supple
   Frames::draw_state(const Measurement &now, const std::string &name)
   {
     const State &state = configuration.state;
-    Vector deformed;
-    body.initialize(deformed);
-    for (unsigned int node = 0; node < body.n_owned; ++node)
-      for (unsigned int i = 0; i < 3; ++i)
-        deformed.local_element(3 * node + i) =
-          body.positions[node][i] + state.displacement.local_element(3 * node + i);
-    const CellFields &of_cells = fields(now.step);
-
-    // Drawing works with whole vectors: ghost values stay valid until it is done.
-    std::vector<const Vector *> drawn = {&deformed, &state.displacement};
-    if (state.has_velocity())
-      drawn.push_back(&state.velocity);
-    for (const Vector *const vector : drawn)
-      vector->update_ghost_values();
     const Drawing drawing{now.time,
                           now.step,
-                          deformed,
                           state.displacement,
                           state.has_velocity() ? &state.velocity : nullptr,
-                          of_cells};
+                          fields(now.step)};
     write_pieces(drawing, name);
     if (film)
       film->write(drawing);
     cells.reset();
-    for (const Vector *const vector : drawn)
-      vector->zero_out_ghost_values();
   }
 
 
@@ -214,7 +198,7 @@ namespace Supple
     for (unsigned int r = 0; r < n_ranks; ++r)
       pieces.push_back(n_ranks == 1 ? name + ".vtu" : name + "." + std::to_string(r) + ".vtu");
 
-    const auto [part, record] = draw(*body.mesh.parts, drawing, pieces);
+    const auto [part, record] = vtu.draw(drawing, pieces);
     write_whole_file(folder + "/solution/" + pieces[rank], part);
     if (n_ranks > 1)
       {

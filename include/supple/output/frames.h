@@ -96,6 +96,7 @@ namespace Supple
     const Body &body;
     const OutputParameters &parameters;
     const std::string folder;
+    const Vtu vtu;
     std::unique_ptr<Film> film;
     std::vector<std::pair<double, std::string>> records; ///< time and file of each frame
     Measurement last;                                    ///< when the last frame was written
