@@ -1,8 +1,8 @@
 #include <supple/output/frames.h>
 
 #include <supple/base/files.h>
+#include <supple/base/text.h>
 
-#include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace Supple
 {
@@ -157,9 +156,7 @@ namespace Supple
     records.emplace_back(now.time, "solution/" + name + (parallel ? ".pvtu" : ".vtu"));
     if (Utilities::MPI::this_mpi_process(body.mesh.communicator) == 0)
       {
-        std::ostringstream record;
-        DataOutBase::write_pvd_record(record, records);
-        write_whole_file(folder + "/solution.pvd", record.str());
+        write_whole_file(folder + "/solution.pvd", collection());
       }
 
     min_volume_ratio =
@@ -169,6 +166,18 @@ namespace Supple
     inverted          = inverted || now.inverted > 0;
     last              = now;
     last_displacement = configuration.displacement();
+  }
+
+
+  std::string
+  Frames::collection() const
+  {
+    std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n"
+      "<Collection>\n";
+    for (const auto &[time, file] : records)
+      text += "<DataSet timestep=\"" + digits(time, 15) + "\" file=\"" + file + "\"/>\n";
+    return text + "</Collection>\n</VTKFile>\n";
   }
 
 

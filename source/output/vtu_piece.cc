@@ -1,20 +1,22 @@
 #include <supple/output/vtu_piece.h>
 
 #include <supple/base/error.h>
+#include <supple/base/text.h>
 #include <supple/output/vtk_array.h>
 
 #include <limits>
-#include <sstream>
 
 namespace Supple
 {
   namespace
   {
+    /** Numbers have no number of components: meshio would make columns of one entry of them. */
     std::string
     attributes(const std::string &type, const std::string &name, const unsigned int n_components)
     {
-      return "type=\"" + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
-             std::to_string(n_components) + "\"";
+      return "type=\"" + type + "\" Name=\"" + name + "\"" +
+             (n_components == 1 ? ""
+                                : " NumberOfComponents=\"" + std::to_string(n_components) + "\"");
     }
 
 
@@ -58,16 +60,11 @@ namespace Supple
 
 
     std::string
-    instant(const double time, const unsigned int step)
+    instant(const std::string &name, const double value)
     {
-      std::ostringstream text;
-      text.precision(std::numeric_limits<double>::max_digits10);
-      text << "<FieldData>\n";
-      const std::string begin = "<DataArray type=\"Float64\" Name=\"";
-      const std::string end   = "\" NumberOfTuples=\"1\" format=\"ascii\">";
-      text << begin << "CYCLE" << end << step << "</DataArray>\n";
-      text << begin << "TIME" << end << time << "</DataArray>\n</FieldData>\n";
-      return text.str();
+      return "<DataArray type=\"Float64\" Name=\"" + name +
+             "\" NumberOfTuples=\"1\" format=\"ascii\">" + digits(value, all_digits) +
+             "</DataArray>\n";
     }
   } // namespace
 
@@ -99,7 +96,8 @@ namespace Supple
   std::string
   VtuPiece::file(const Instant &now) const
   {
-    std::string text = instant(now.time, now.step);
+    std::string text =
+      "<FieldData>\n" + instant("CYCLE", now.step) + instant("TIME", now.time) + "</FieldData>\n";
     text += "<Piece NumberOfPoints=\"" + std::to_string(now.points.size() / 3) +
             "\" NumberOfCells=\"" + std::to_string(n_cells) + "\">\n<Points>\n";
     text += element(attributes("Float64", "Points", 3), vtk_array(now.points, Packing::stored));

@@ -51,7 +51,7 @@ class Frame:
     @staticmethod
     def values(entry):
         numbers = decode(entry.text.strip(), CODES[entry.get("type")])
-        n = int(entry.get("NumberOfComponents"))
+        n = int(entry.get("NumberOfComponents", 1))
         return numbers if n == 1 else [numbers[i:i + n] for i in range(0, len(numbers), n)]
 
     def corners(self):

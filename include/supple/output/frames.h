@@ -84,6 +84,10 @@ namespace Supple
     const CellFields &
     fields(unsigned int step);
 
+    /** What names the frames with their times: solution.pvd. */
+    std::string
+    collection() const;
+
     /** Writes the files of this frame. */
     void
     draw_state(const Measurement &now, const std::string &name);
