@@ -2,6 +2,7 @@
 
 #include <supple/base/error.h>
 #include <supple/base/files.h>
+#include <supple/base/gather.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -140,10 +141,10 @@ namespace Supple
         for (unsigned int i = 0; i < 3; ++i)
           own.push_back(vector.local_element(3 * node + i));
       }
+    const std::vector<double> all = gathered_on_first(own, body.mesh.communicator);
     std::vector<double> values(3 * body.mesh.n_vertices);
-    for (const auto &part : Utilities::MPI::gather(body.mesh.communicator, own))
-      for (std::size_t k = 0; k < part.size(); k += 4)
-        std::copy_n(&part[k + 1], 3, &values[3 * static_cast<std::size_t>(part[k])]);
+    for (std::size_t k = 0; k < all.size(); k += 4)
+      std::copy_n(&all[k + 1], 3, &values[3 * static_cast<std::size_t>(all[k])]);
     return values;
   }
 

@@ -9,6 +9,7 @@
  */
 
 #include <supple/base/error.h>
+#include <supple/base/lone_process.h>
 #include <supple/input/command_line.h>
 #include <supple/program/tasks.h>
 
@@ -17,6 +18,7 @@
 
 #include <iostream>
 #include <new>
+#include <optional>
 
 
 int
@@ -24,7 +26,9 @@ main(int argc, char **argv)
 {
   // Only the program's name: libraries behind deal.II would take our options for theirs.
   int n_names = 1;
+  std::optional<Supple::LoneProcess> lone_process(std::in_place);
   dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, argv, 1);
+  lone_process.reset();
   dealii::deal_II_exceptions::disable_abort_on_exception(); // whatever fails ends with a message
 
   const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;

@@ -40,5 +40,4 @@ good = len(failed.history()) - 1
 again = runner.simulate(runner.STATIC, {**settings, "Time/Newton iterations": 100})
 runner.check(1 <= good < 4 and len(failed.frame_times()) == good + 1, f"{good} good steps")
 name = f"solution/frame_{good:04}.vtu"
-contents = [text.split("-->")[-1] for text in ((failed.folder / name).read_text(), (again.folder / name).read_text())]
-runner.check(contents[0] == contents[1], "the last frame after a failure is not that of the last good step")
+runner.check((failed.folder / name).read_bytes() == (again.folder / name).read_bytes(), "the last frame after a failure is not that of the last good step")
