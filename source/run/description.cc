@@ -253,12 +253,14 @@ namespace Supple
   std::string
   Description::energy_from_nowhere() const
   {
-    if (-course.now.dissipated <= 0.2 * course.largest_energy || !problem.forces.have_energy())
+    const double gained = diagnostics.extremes().energy_gained;
+    const double motion = diagnostics.extremes().motion_energy;
+    if (gained <= 0.01 * motion || !problem.forces.have_energy())
       return "";
     std::ostringstream text;
-    text << "The time stepping added " << -course.now.dissipated << " J to a motion of at most "
-         << course.largest_energy
-         << " J: it is not to be trusted. Take shorter steps, variable steps or another method.";
+    text << "The time stepping added " << gained << " J to a motion of at most " << motion << " J"
+         << (gained > 0.2 * motion ? ": it is not to be trusted." : ".")
+         << " Take shorter steps, variable steps or another method.";
     return text.str();
   }
 

@@ -186,8 +186,7 @@ namespace Supple
         const std::string wrong = objection(next);
         if (!wrong.empty())
           refuse(wrong, next);
-        course.now            = next;
-        course.largest_energy = std::max(course.largest_energy, next.kinetic + next.elastic);
+        course.now = next;
       }
     problem.configuration.accept();
     course.now.step = after_step;
