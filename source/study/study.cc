@@ -165,6 +165,24 @@ namespace Supple
     const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - start;
     say("done in " + readable_duration(duration.count()) + ": " + folder + "/study.md");
   }
+    require_any_right();
+  }
+
+
+  void
+  Study::require_any_right() const
+  {
+    const bool any = std::any_of(table.rows.begin(), table.rows.end(), [](const StudyRow &row) {
+      return row.status == StudyRecord::Status::done && row.verdict != "wrong";
+    });
+    if (any || table.rows.empty())
+      return;
+    const StudyRow &first = table.rows.front();
+    throw ComputationError("None of the " + std::to_string(table.rows.size()) +
+                           " runs of the study is done" + (table.judged ? " and right" : "") +
+                           "; the first: " + first.run.label() + ": " + first.status_text() +
+                           (first.verdict.empty() ? "" : ", " + first.verdict) +
+                           ". The table is in " + folder + ".");
 
 
   void

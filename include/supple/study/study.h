@@ -50,7 +50,10 @@ namespace Supple
     check_parameters() const;
 
     void
-    open_output() const;
+    require_any_right() const;
+
+    void
+    open_output();
 
     /** What the table says of how it came about. */
     void
