@@ -2,6 +2,7 @@
 
 #include <supple/base/progress.h>
 #include <supple/base/text.h>
+#include <supple/scene/idle_entries.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -159,7 +160,11 @@ namespace Supple
       list.push_back(problem.constraints.free_pieces_in_words());
     list.insert(list.end(), probes.warnings().begin(), probes.warnings().end());
     if (problem.parameters.corotation.rotation == RotationMethod::gram_schmidt)
+    if (problem.constraints.n_held == body.n_dofs())
+      list.push_back("All vertices of the body are held or moved: nothing is left to be found.");
       list.push_back(
+    const std::vector<std::string> idle = idle_entries(problem.parameters);
+    list.insert(list.end(), idle.begin(), idle.end());
         "Gram-Schmidt rotations have no elastic energy: 'elastic' is the energy of the same "
         "formula, and "
         "'dissipated' need not grow. They depend on the axes.");
