@@ -15,6 +15,7 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
+#include <csignal>
 #include <iostream>
 #include <new>
 
@@ -25,6 +26,7 @@ main(int argc, char **argv)
   // Only the program's name: libraries behind deal.II would take our options for theirs.
   int n_names = 1;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, argv, 1);
+  std::signal(SIGPIPE, SIG_IGN); // whoever reads the screen may go away, as in supple ... | head
   dealii::deal_II_exceptions::disable_abort_on_exception(); // whatever fails ends with a message
 
   const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
