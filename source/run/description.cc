@@ -43,12 +43,14 @@ namespace Supple
                            const TimeIntegrator &integrator,
                            const Probes &probes,
                            const Diagnostics &diagnostics,
-                           const Course &course)
+                           const Course &course,
+                           const SkippedPulses &pulses)
     : problem(problem)
     , integrator(integrator)
     , probes(probes)
     , diagnostics(diagnostics)
     , course(course)
+    , pulses(pulses)
   {
   }
 
@@ -158,13 +160,13 @@ namespace Supple
                      "(subsection Time).");
     if (!problem.constraints.free_pieces_in_words().empty())
       list.push_back(problem.constraints.free_pieces_in_words());
-    list.insert(list.end(), probes.warnings().begin(), probes.warnings().end());
-    if (problem.parameters.corotation.rotation == RotationMethod::gram_schmidt)
     if (problem.constraints.n_held == body.n_dofs())
       list.push_back("All vertices of the body are held or moved: nothing is left to be found.");
-      list.push_back(
+    list.insert(list.end(), probes.warnings().begin(), probes.warnings().end());
     const std::vector<std::string> idle = idle_entries(problem.parameters);
     list.insert(list.end(), idle.begin(), idle.end());
+    if (problem.parameters.corotation.rotation == RotationMethod::gram_schmidt)
+      list.push_back(
         "Gram-Schmidt rotations have no elastic energy: 'elastic' is the energy of the same "
         "formula, and "
         "'dissipated' need not grow. They depend on the axes.");
@@ -214,6 +216,8 @@ namespace Supple
                      " steps a prescribed motion jumps, or swings to and fro: what it does to the "
                      "body depends on the step and the mesh. Move it over some steps, such as by "
                      "min(t/0.1, 1), or take shorter ones.");
+    const std::vector<std::string> skipped = pulses.warnings();
+    list.insert(list.end(), skipped.begin(), skipped.end());
     return list;
   }
 

@@ -28,6 +28,7 @@ namespace Supple
     , integrator(create_integrator(problem.model()))
     , diagnostics(problem.configuration, problem.forces, problem.stationary)
     , second_run(make_second_run())
+    , pulses(problem.parameters, problem.mesh.bounding_box)
     , start_displacement(problem.configuration.displacement())
     , results(folder, problem.parameters, communicator)
     , interruption(communicator)
@@ -81,6 +82,7 @@ namespace Supple
                                                     problem.configuration,
                                                     problem.forces.elastic(),
                                                     parameters.output));
+    listeners.add(&pulses);
     listeners.add(guest);
     listeners.add(second_run.get());
     listeners.add(results.add<ErrorTable>(history && second_run, effort, second_run.get()));
@@ -170,7 +172,7 @@ namespace Supple
   Description
   Simulation::description() const
   {
-    return {problem, *integrator, probes, diagnostics, course};
+    return {problem, *integrator, probes, diagnostics, course, pulses};
   }
 
 
