@@ -97,6 +97,7 @@ namespace Supple
   Simulation::run(Listener *const guest)
   {
     add_listeners(guest);
+    results.lock_folder();
     if (checkpoints)
       checkpoints->resume();
     if (!course.resumed())

@@ -115,11 +115,12 @@ namespace Supple
 
 
   void
-  Study::open_output() const
+  Study::open_output()
   {
     prepare_output_folder(folder, communicator, [&] {
       namespace fs = std::filesystem;
       fs::create_directories(folder);
+      lock = std::make_unique<const FolderLock>(folder);
       for (const char *name : {"study.csv", "study.md", "report.html"})
         fs::remove(fs::path(folder) / name);
       for (const char *plot : {"work_precision", "convergence"})
@@ -164,7 +165,6 @@ namespace Supple
         say(sentence);
     const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - start;
     say("done in " + readable_duration(duration.count()) + ": " + folder + "/study.md");
-  }
     require_any_right();
   }
 
@@ -183,6 +183,7 @@ namespace Supple
                            "; the first: " + first.run.label() + ": " + first.status_text() +
                            (first.verdict.empty() ? "" : ", " + first.verdict) +
                            ". The table is in " + folder + ".");
+  }
 
 
   void
