@@ -18,6 +18,18 @@ namespace Supple
     }
 
 
+    /** As under nohup. To be asked before libraries put handlers of their own in its place. */
+    bool
+    hangup_is_ignored()
+    {
+      const auto handler = std::signal(SIGHUP, SIG_IGN);
+      std::signal(SIGHUP, handler);
+      return handler == SIG_IGN;
+    }
+
+
+    const bool hangup_was_ignored = hangup_is_ignored();
+
     constexpr std::array<int, 4> signals = {{SIGINT, SIGTERM, SIGHUP, SIGXCPU}};
   } // namespace
 
@@ -29,7 +41,7 @@ namespace Supple
     });
     if (outer[0] != note_signal)
       signal_received = 0;
-    if (outer[2] == SIG_IGN)
+    if (hangup_was_ignored)
       std::signal(SIGHUP, SIG_IGN);
   }
 
