@@ -176,7 +176,8 @@ namespace Supple
         std::error_code problem; // write_whole_file() speaks of a folder that is gone
         if (whole_content(file)) // a damaged one must not take the place of a whole one
           std::filesystem::rename(file, previous_file, problem);
-        write_whole_file(file, head + checksum(content) + content);
+        sync_folder(std::filesystem::path(file).parent_path(), "solution"); // what it goes on with
+        write_durable_file(file, head + checksum(content) + content);
       }
     last_step = step;
     last_time = std::chrono::steady_clock::now();

@@ -16,6 +16,7 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
+#include <csignal>
 #include <iostream>
 #include <new>
 #include <optional>
@@ -29,6 +30,7 @@ main(int argc, char **argv)
   std::optional<Supple::LoneProcess> lone_process(std::in_place);
   dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, argv, 1);
   lone_process.reset();
+  std::signal(SIGPIPE, SIG_IGN); // whoever reads the screen may go away, as in supple ... | head
   dealii::deal_II_exceptions::disable_abort_on_exception(); // whatever fails ends with a message
 
   const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;

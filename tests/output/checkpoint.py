@@ -172,3 +172,16 @@ for steps, kind in [(50, "none"), (60, "adaptive")]:
 later = runner.Results(folder / "frames").frame_times()
 runner.check(later[0] == frames[0] and later[-1] > frames[-1], f"frames at {later}, before at {frames}")
 runner.check(all(a < b for a, b in zip(later, later[1:])), f"frames at {later}")
+
+# Rows that were done are not lost: an end before them is refused, and nothing is touched.
+settings = {"Checkpoint/Every": 7, "Checkpoint/Resume": "auto", "Output/Frames": "none"}
+status, error = run("fewer", {**settings, "Time/Steps": 20})
+runner.check(status == 0, error)
+before = {path: path.read_bytes() for path in (folder / "fewer").iterdir()}
+for steps in (10, 16, 19):
+    status, error = run("fewer", {**settings, "Time/Steps": steps})
+    runner.check(status == 1 and "Time/Steps" in error and "has come to" in error, f"{steps} steps: {status} {error}")
+    runner.check(before == {path: path.read_bytes() for path in (folder / "fewer").iterdir()}, f"{steps} steps: files were touched")
+for steps in (20, 21):
+    status, error = run("fewer", {**settings, "Time/Steps": steps})
+    runner.check(status == 0 and len(runner.Results(folder / "fewer").history()) == steps + 1, f"{steps} steps: {error}")

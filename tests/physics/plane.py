@@ -221,3 +221,12 @@ turned = {**free, "Start/Rotation": "0, 0, 100", "Corotation/Rotation": "polar",
 frame = vtu.Frame(runner.simulate(PLATE, turned).folder / "solution" / "frame_0000.vtu")
 for value in frame.of_cells["rotation_angle"]:
     near(value, 100, 1e-5, "rotation angle")
+
+# The volume ratio knows how thin a plate in plane stress has become, as the same bar in three dimensions does.
+for load, strains in [("pulled", (1, -NU, -NU)), ("pressed", (1 - NU, 1 - NU, -2 * NU))]:
+    results = runner.simulate(PLATE, {"Plane/Model": "plane stress", "Output/Frames": "every",
+                                      **(pulled if load == "pulled" else pressed)})
+    last = results.history()[-1]
+    ratio = math.prod(1 + (1 if load == "pulled" else -1) * strain * LOAD / E for strain in strains)
+    near(last["min_volume_ratio"] - 1, ratio - 1, 1e-7, f"the least volume ratio, {load}")
+    near(last["max_volume_ratio"] - 1, ratio - 1, 1e-7, f"the largest volume ratio, {load}")

@@ -218,6 +218,10 @@ namespace Supple
       return rotations.empty() ? Matrix3<Pack>::identity() : rotations[b];
     }
 
+    /** Of the cells of a batch, with the thinning of a body in plane stress. */
+    Pack
+    volume_ratio(std::size_t b, const Matrix3<Pack> &R, const Matrix3<Pack> &F) const;
+
     Cells::NodalPack
     rotated_gradients(const CellRotations &rotations, const std::size_t b) const
     {
@@ -394,6 +398,23 @@ namespace Supple
   }
 
 
+  /** In plane stress 2 mu e33 + lambda (e11 + e22 + e33) = 0 says how thin the body has become.
+   * With the lambda of effective() e33 is the stress that plane strain would have along z, over -2
+   * mu. */
+  template <class Formulas>
+  Pack
+  LawSweeps<Formulas>::volume_ratio(const std::size_t b,
+                                    const Matrix3<Pack> &R,
+                                    const Matrix3<Pack> &F) const
+  {
+    const Pack ratio = determinant(F);
+    if (cells.section.geometry != Geometry::plane_stress)
+      return ratio;
+    const Cells::Batch &batch = cells.batch(b);
+    return ratio * (1. - formulas.stress(batch, R, F)(2, 2) / (2. * batch.mu));
+  }
+
+
   template <class Formulas>
   Deformation
   LawSweeps<Formulas>::deformation(const CellRotations &rotations, const double *displacement) const
@@ -412,12 +433,12 @@ namespace Supple
       sum.elastic += batch.owned * batch.volume *
                      formulas.energy_density(batch, rotation_of(rotations.current, b), F);
 
-      const Pack ratio   = determinant(F);
+      const Pack ratio   = volume_ratio(b, rotation_of(rotations.current, b), F);
       const auto counted = batch.owned > 0.;
 
       stdx::where(counted && ratio < sum.smallest, sum.smallest) = ratio;
       stdx::where(counted && ratio > sum.largest, sum.largest)   = ratio;
-      stdx::where(counted && !(ratio > 0.), sum.inverted) += 1.;
+      stdx::where(counted && !(determinant(F) > 0.), sum.inverted) += 1.;
     };
     const Sum zero{0., 0., result.min_volume_ratio, result.max_volume_ratio};
     for (const Sum &sum : cells.sums_of_chunks(zero, add))
@@ -451,7 +472,7 @@ namespace Supple
         deviator(i, i) -= mean;
 
       const Pack von_mises = stdx::sqrt(1.5 * norm_square(deviator));
-      const Pack ratio     = determinant(F);
+      const Pack ratio     = volume_ratio(b, R, F);
       const Pack cosine    = 0.5 * (trace(R) - 1.);
       cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
         const double c = std::min(1., std::max(-1., double(cosine[lane])));
