@@ -147,8 +147,8 @@ runner.check([row["verdict"] for row in rows] == verdicts, f"{rows}")
 words = (folder / "conditions-1" / "study.md").read_text()
 runner.check(words.count("They depend on the axes") == 3 and "command line" not in words, words)
 rows = study("unmoved", Scene=runner.BAR, Overrides="Time/Steps = 1", Columns="sag: first n28.uz", Repeats=0,
-             Cases="lonely []: above_sag == 0", arguments=["--set", "Time/Steps=2"])
-runner.check([row["verdict"] for row in rows] == ["wrong"] and rows[0]["steps"] == "2", f"{rows}")
+             Cases="lonely []: above_sag == 0; fine []: sag < 1", arguments=["--set", "Time/Steps=2"])
+runner.check([row["verdict"] for row in rows] == ["wrong", "right"] and rows[0]["steps"] == "2", f"{rows}")
 runner.check("Set on the command line: `Time/Steps=2`" in (folder / "unmoved-1" / "study.md").read_text(), "the command line")
 
 # A check builds all and writes nothing.
