@@ -24,10 +24,10 @@ namespace Supple
   {
     if (was_launched())
       return;
-    const std::array<std::pair<const char *, const char *>, 3> settings = {
-      {{"OMPI_MCA_pml", "ob1"},
-       {"OMPI_MCA_btl", "self"},
-       {"OMPI_MCA_ess_singleton_isolated", "1"}}};
+    // Not ess_singleton_isolated, which is quicker still: all processes with it share one folder of
+    // temporary files, and MPI_Init fails where two of them make it at once.
+    const std::array<std::pair<const char *, const char *>, 2> settings = {
+      {{"OMPI_MCA_pml", "ob1"}, {"OMPI_MCA_btl", "self"}}};
     for (const auto &[name, value] : settings)
       if (!std::getenv(name) && setenv(name, value, 0) == 0)
         set.push_back(name);
