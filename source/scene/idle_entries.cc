@@ -111,10 +111,16 @@ namespace Supple
            preset.rectangle_size);
         of(Shape::rectangle, "rectangle", "Rectangle squares", mesh.squares, preset.squares);
         const std::string cylinder = "hollow cylinder";
-        of(
-          Shape::hollow_cylinder, cylinder, "Inner radius", mesh.inner_radius, preset.inner_radius);
-        of(
-          Shape::hollow_cylinder, cylinder, "Outer radius", mesh.outer_radius, preset.outer_radius);
+        of(Shape::hollow_cylinder,
+           cylinder,
+           "Cylinder inner radius",
+           mesh.inner_radius,
+           preset.inner_radius);
+        of(Shape::hollow_cylinder,
+           cylinder,
+           "Cylinder outer radius",
+           mesh.outer_radius,
+           preset.outer_radius);
       }
 
       void
