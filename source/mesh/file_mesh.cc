@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 namespace Supple
 {
@@ -128,19 +129,17 @@ namespace Supple
 
       std::vector<Element> result = elements;
       std::vector<bool> drop(elements.size());
-      for (std::size_t i = 1, first = 0; i < order.size(); ++i)
-        if (keys[order[i]] != keys[order[first]])
-          first = i;
-        else
-          for (const unsigned int id : elements[order[i]].ids)
-            {
-              std::vector<unsigned int> &ids = result[order[first]].ids;
-              if (std::count(ids.begin(), ids.end(), id) == 0)
-                {
-                  ids.push_back(id);
-                  drop[order[i]] = true;
-                }
-            }
+      for (std::size_t first = 0, end = 0; first < order.size(); first = end)
+        {
+          std::set<unsigned int> ids;
+          for (; end < order.size() && keys[order[end]] == keys[order[first]]; ++end)
+            ids.insert(elements[order[end]].ids.begin(), elements[order[end]].ids.end());
+          if (end - first == 1 || ids.size() < end - first)
+            continue;
+          result[order[first]].ids.assign(ids.begin(), ids.end());
+          for (std::size_t i = first + 1; i < end; ++i)
+            drop[order[i]] = true;
+        }
       std::vector<Element> kept;
       for (std::size_t i = 0; i < result.size(); ++i)
         if (!drop[i])
