@@ -31,21 +31,28 @@ def displacements(grid):
     return vtk_to_numpy(grid.GetPointData().GetArray("displacement"))
 
 
+def owner(grid, field):
+    """What has a field of the file, or one of which it is a component: the points of the body or its cells."""
+    both = (grid.GetPointData(), grid.GetCellData())
+    for data in both:
+        if data.HasArray(field) or field.rpartition("_")[2].isdigit() and data.HasArray(field.rpartition("_")[0]):
+            return data
+    raise SystemExit(f"There is no field {field}. There are: "
+                     + ", ".join(data.GetArrayName(i) for data in both for i in range(data.GetNumberOfArrays())))
+
+
 def values(grid, field):
-    """A field of numbers: one that is in the file, a component of it, or the length of a vector."""
-    data = grid.GetPointData()
+    """A field of numbers, of points or of cells: one that is in the file, a component of it, or the length of a vector."""
+    data = owner(grid, field)
     if data.HasArray(field):
         found = vtk_to_numpy(data.GetArray(field))
         return found if found.ndim == 1 else numpy.linalg.norm(found, axis=1)
     name, _, component = field.rpartition("_")
-    if not data.HasArray(name) or not component.isdigit():
-        raise SystemExit(f"There is no field {field}. There are: "
-                         + ", ".join(data.GetArrayName(i) for i in range(data.GetNumberOfArrays())))
     return vtk_to_numpy(data.GetArray(name))[:, int(component)]
 
 
 def at_rest(grid):
-    """The same cells where they were before they moved, with common vertices (in the files each cell has its own)."""
+    """The same cells where they were before they moved, with common vertices (of several processes each has its own)."""
     points, numbers = numpy.unique(places(grid) - displacements(grid), axis=0, return_inverse=True)
     rest_points = vtk.vtkPoints()
     rest_points.SetData(numpy_to_vtk(points, deep=True))

@@ -19,12 +19,12 @@ def largest(reader):
     worst = 0
     for time in reader.TimestepValues:
         reader.UpdatePipeline(time)
-        worst = max(worst, reader.PointData[FIELD].GetRange()[1])
+        worst = max(worst, reader.CellData[FIELD].GetRange()[1])
     return worst or 1
 
 
 def colour(shown, view, top):
-    simple.ColorBy(shown, ("POINTS", FIELD))
+    simple.ColorBy(shown, ("CELLS", FIELD))
     table = simple.GetColorTransferFunction(FIELD)
     table.ColorSpace = "Lab"
     table.RGBPoints = [value * top if i % 4 == 0 else value for i, value in enumerate(COLOURS)]
@@ -37,7 +37,7 @@ def colour(shown, view, top):
 
 
 def show_at_rest(reader, view):
-    """Each cell has points of its own in the files: they are put together for the outline."""
+    """The parts of several processes have points of their own: they are put together for the outline."""
     back = simple.WarpByVector(registrationName="at rest", Input=reader)
     back.Vectors = ["POINTS", "displacement"]
     back.ScaleFactor = -1

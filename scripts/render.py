@@ -22,7 +22,7 @@ except ModuleNotFoundError as missing:
     raise SystemExit(f"{missing}: start it by scripts/render.sh, which takes the Python that has it.")
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
-from frames import at_rest, enlarge, places, read_frames, read_grid, values
+from frames import at_rest, enlarge, owner, places, read_frames, read_grid, values
 
 UNITS = {"displacement": "m", "velocity": "m/s", "von_mises_stress": "Pa"}
 PREFIXES = [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "µ")]
@@ -41,7 +41,10 @@ def unit(field, largest):
 def body_actor(grid, colours):
     mapper = vtk.vtkDataSetMapper()
     mapper.SetInputData(grid)
-    mapper.SetScalarModeToUsePointFieldData()
+    if grid.GetCellData().HasArray("colour"):
+        mapper.SetScalarModeToUseCellFieldData()
+    else:
+        mapper.SetScalarModeToUsePointFieldData()
     mapper.SelectColorArray("colour")
     mapper.InterpolateScalarsBeforeMappingOn()
     mapper.SetLookupTable(colours)
@@ -206,7 +209,7 @@ def colour(grids, arguments):
     for grid, field in zip(grids, fields):
         array = numpy_to_vtk(field / size, deep=True)
         array.SetName("colour")
-        grid.GetPointData().AddArray(array)
+        owner(grid, arguments.field).AddArray(array)
     title = arguments.title or arguments.field.replace("_", " ").replace("mises", "Mises")
     return colour_map(low / size, high / size), title + (f" in {symbol}" if symbol else "")
 

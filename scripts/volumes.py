@@ -14,7 +14,6 @@ matplotlib.use("Agg")
 import matplotlib.pyplot
 import numpy
 from PIL import Image
-from vtk.util.numpy_support import vtk_to_numpy
 
 import frames
 
@@ -23,10 +22,7 @@ def volumes(folder):
     """Times, and the volume ratio of each cell (columns) at each time (rows)."""
     times, rows = [], []
     for time, file in frames.read_frames(folder):
-        grid = frames.read_grid(file)
-        vertices, offsets = grid.GetCells().GetConnectivityArray(), grid.GetCells().GetOffsetsArray()
-        first = vtk_to_numpy(vertices)[vtk_to_numpy(offsets)[:-1]]    # of each cell; no two cells share a vertex
-        rows.append(vtk_to_numpy(grid.GetPointData().GetArray("volume_ratio"))[first])
+        rows.append(frames.values(frames.read_grid(file), "volume_ratio"))
         times.append(time)
     return numpy.array(times), numpy.array(rows)
 

@@ -3,6 +3,9 @@
 #include <supple/base/error.h>
 #include <supple/base/first_process.h>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -32,24 +35,87 @@ namespace Supple
   }
 
 
+  namespace
+  {
+    void
+    write_aside(const std::string &file, const std::string &aside, const std::string &content)
+    {
+      std::ofstream stream(aside);
+      stream << content << std::flush;
+      if (stream)
+        return;
+      stream.close();
+      std::remove(aside.c_str());
+      const auto folder = std::filesystem::path(file).parent_path();
+      std::error_code problem;
+      const bool gone = !folder.empty() && !std::filesystem::exists(folder, problem);
+      throw WriteError(file + " can't be written; " +
+                       (gone ? "its folder is gone." : "is the disk full?"));
+    }
+
+
+    void
+    rename_whole(const std::string &aside, const std::string &file)
+    {
+      std::error_code problem;
+      std::filesystem::rename(aside, file, problem);
+      if (problem)
+        throw WriteError(file + " can't be written (" + problem.message() + ").");
+    }
+
+
+    /** A file or a folder; what can't be opened is left alone. */
+    void
+    sync(const std::filesystem::path &path)
+    {
+      const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+      if (descriptor < 0)
+        return;
+      fsync(descriptor);
+      close(descriptor);
+    }
+
+
+    void
+    sync_files_of(const std::filesystem::path &folder)
+    {
+      std::error_code problem;
+      for (std::filesystem::directory_iterator entry(folder, problem), end;
+           !problem && entry != end;
+           entry.increment(problem))
+        if (entry->is_regular_file(problem))
+          sync(entry->path());
+      sync(folder);
+    }
+  } // namespace
+
+
   void
   write_whole_file(const std::string &file, const std::string &content)
   {
     const std::string aside = file + ".partial";
-    {
-      std::ofstream stream(aside);
-      stream << content << std::flush;
-      if (!stream)
-        {
-          stream.close();
-          std::remove(aside.c_str());
-          throw WriteError(file + " can't be written; is the disk full?");
-        }
-    }
-    std::error_code problem;
-    std::filesystem::rename(aside, file, problem);
-    if (problem)
-      throw WriteError(file + " can't be written (" + problem.message() + ").");
+    write_aside(file, aside, content);
+    rename_whole(aside, file);
+  }
+
+
+  void
+  write_durable_file(const std::string &file, const std::string &content)
+  {
+    const std::string aside = file + ".partial";
+    write_aside(file, aside, content);
+    sync(aside);
+    rename_whole(aside, file);
+    const auto folder = std::filesystem::path(file).parent_path();
+    sync(folder.empty() ? "." : folder);
+  }
+
+
+  void
+  sync_folder(const std::string &folder, const std::string &subfolder)
+  {
+    sync_files_of(std::filesystem::path(folder) / subfolder);
+    sync_files_of(folder);
   }
 
 

@@ -2,6 +2,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <csignal>
 
 namespace Supple
@@ -15,22 +16,40 @@ namespace Supple
     {
       signal_received = signal;
     }
+
+
+    /** As under nohup. To be asked before libraries put handlers of their own in its place. */
+    bool
+    hangup_is_ignored()
+    {
+      const auto handler = std::signal(SIGHUP, SIG_IGN);
+      std::signal(SIGHUP, handler);
+      return handler == SIG_IGN;
+    }
+
+
+    const bool hangup_was_ignored = hangup_is_ignored();
+
+    constexpr std::array<int, 4> signals = {{SIGINT, SIGTERM, SIGHUP, SIGXCPU}};
   } // namespace
 
 
   InterruptGuard::InterruptGuard()
-    : outer_interrupt(std::signal(SIGINT, note_signal))
-    , outer_termination(std::signal(SIGTERM, note_signal))
   {
-    if (outer_interrupt != note_signal)
+    std::transform(signals.begin(), signals.end(), outer.begin(), [](const int signal) {
+      return std::signal(signal, note_signal);
+    });
+    if (outer[0] != note_signal)
       signal_received = 0;
+    if (hangup_was_ignored)
+      std::signal(SIGHUP, SIG_IGN);
   }
 
 
   InterruptGuard::~InterruptGuard()
   {
-    std::signal(SIGINT, outer_interrupt);
-    std::signal(SIGTERM, outer_termination);
+    for (unsigned int i = 0; i < signals.size(); ++i)
+      std::signal(signals[i], outer[i]);
   }
 
 

@@ -265,17 +265,8 @@ namespace Supple
   void
   Forces::add_tangent(const Configuration &configuration,
                       const TangentFactors &factors,
-                      SymmetricBlockMatrix &A) const
-  {
-    add_bounded_tangent(configuration, factors, A, 0.);
-  }
-
-
-  void
-  Forces::add_bounded_tangent(const Configuration &configuration,
-                              const TangentFactors &factors,
-                              SymmetricBlockMatrix &A,
-                              const double added_bulk) const
+                      SymmetricBlockMatrix &A,
+                      const double added_bulk) const
   {
     for (const auto &force : list)
       if (force.get() == of_cells)

@@ -63,11 +63,12 @@ namespace Supple
 
 
   void
-  Identification::open_output() const
+  Identification::open_output()
   {
     prepare_output_folder(folder, communicator, [&] {
       namespace fs = std::filesystem;
       fs::create_directories(folder);
+      lock = std::make_unique<const FolderLock>(folder);
       for (const char *name : {"identification", "profiles", "fits"})
         for (const char *ending : {".csv", ".md", ".gp", ".svg", ".png"})
           fs::remove(fs::path(folder) / (std::string(name) + ending));

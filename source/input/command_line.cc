@@ -3,6 +3,7 @@
 #include <supple/base/error.h>
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 
 namespace Supple
@@ -75,10 +76,26 @@ namespace Supple
           throw InputError(word + ": one scene at a time; " + line.scene + " is given already.");
       }
 
+    require_single(line.overrides);
     const bool needs_scene = line.action == Action::run || line.action == Action::check;
     if (needs_scene && line.scene.empty())
       throw InputError("A scene is missing.\n\n" + help());
     return line;
+  }
+
+
+  void
+  require_single(const std::vector<Override> &overrides)
+  {
+    std::map<std::string, std::string> texts;
+    for (const Override &override : overrides)
+      {
+        const auto [known, is_new] = texts.emplace(override.entry(), override.text);
+        if (!is_new)
+          throw InputError(override.place + " \"" + override.text + "\": " + override.entry() +
+                           " is set already, by \"" + known->second +
+                           "\"; only one of the two would count.");
+      }
   }
 
 

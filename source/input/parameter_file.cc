@@ -40,7 +40,20 @@ namespace Supple
     {
       std::map<std::string, std::string> entries;
       std::map<std::string, std::string> sections;
+      std::vector<std::string> twice; ///< messages: entries that two lines set
     };
+
+
+    /** With a single blank where there are several, as deal.II reads names. */
+    std::string
+    plain_name(const std::string &name)
+    {
+      std::istringstream words(name);
+      std::string all, word;
+      while (words >> word)
+        all += (all.empty() ? "" : " ") + word;
+      return all;
+    }
 
 
     /** Finds at which line each entry of a parameter file is set. */
@@ -62,9 +75,10 @@ namespace Supple
           std::smatch found;
           if (std::regex_match(line, found, subsection))
             {
+              const std::string section = plain_name(found[1]);
               if (sections.empty())
-                found_lines.sections.emplace(found[1], place);
-              sections.push_back(found[1]);
+                found_lines.sections.emplace(section, place);
+              sections.push_back(section);
             }
           else if (std::regex_match(line, end) && !sections.empty())
             sections.pop_back();
@@ -73,7 +87,13 @@ namespace Supple
               std::string path;
               for (const std::string &section : sections)
                 path += section + "/";
-              found_lines.entries[path + found[1].str()] = place;
+              path += plain_name(found[1]);
+              const auto [known, is_new] = found_lines.entries.emplace(path, place);
+              if (!is_new)
+                found_lines.twice.push_back(place + ": " + path + " is set already, at " +
+                                            known->second +
+                                            "; only one of the two lines would count.");
+              known->second = place;
             }
         }
       return found_lines;
@@ -196,6 +216,11 @@ namespace Supple
             throw InputError(place + ": " + next + " includes itself.");
           require_readable(next, included, chain);
         }
+      const auto twice = find_lines(file, text).twice;
+      if (twice.empty())
+        return;
+      const bool moves = twice.front().find(": Motion/") != std::string::npos;
+      throw InputError(twice.front() + (moves ? " A second motion has subsection Motion 2." : ""));
     }
   } // namespace
 

@@ -282,34 +282,40 @@ namespace Supple
   MotionSums
   Cells::motion(const double *displacement, const double *velocity) const
   {
-    Pack kinetic(0.);
-    std::array<Pack, 3> linear{{0., 0., 0.}}, angular{{0., 0., 0.}};
-    for (std::size_t b = 0; b < batches.size(); ++b)
-      {
-        const Batch &batch = batches[b];
-        NodalPack x        = gather(batch, displacement);
-        for (unsigned int lane = 0; lane < n_lanes; ++lane)
-          for (unsigned int a = 0; a < 4; ++a)
-            for (unsigned int i = 0; i < 3; ++i)
-              x[a][i][lane] += positions[batch.nodes[a][lane]][i];
-
-        const NodalPack v = gather(batch, velocity);
-        const NodalPack p = mass_product(b, v);
-        for (unsigned int a = 0; a < 4; ++a)
-          for (unsigned int i = 0; i < 3; ++i)
-            {
-              const unsigned int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-              kinetic += 0.5 * batch.owned * p[a][i] * v[a][i];
-              linear[i] += batch.owned * p[a][i];
-              angular[i] += batch.owned * (x[a][i1] * p[a][i2] - x[a][i2] * p[a][i1]);
-            }
-      }
+    struct Sum
+    {
+      Pack kinetic{0.};
+      std::array<Pack, 3> linear{{0., 0., 0.}}, angular{{0., 0., 0.}};
+    };
+    const double *const rest = positions.empty() ? nullptr : positions.front().data();
+    const auto add           = [&](const std::size_t b, Sum &sum) {
+      const Batch &batch = batches[b];
+      NodalPack x        = gather(batch, displacement);
+      const NodalPack X = gather(batch, rest), v = gather(batch, velocity);
+      const NodalPack p = mass_product(b, v);
+      for (unsigned int a = 0; a < 4; ++a)
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            x[a][i] += X[a][i];
+            sum.kinetic += 0.5 * batch.owned * p[a][i] * v[a][i];
+            sum.linear[i] += batch.owned * p[a][i];
+          }
+      for (unsigned int a = 0; a < 4; ++a)
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            const unsigned int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+            sum.angular[i] += batch.owned * (x[a][i1] * p[a][i2] - x[a][i2] * p[a][i1]);
+          }
+    };
     MotionSums sums;
-    sums.kinetic = stdx::reduce(kinetic);
-    for (unsigned int i = 0; i < 3; ++i)
+    for (const Sum &sum : sums_of_chunks(Sum(), add))
       {
-        sums.linear_momentum[i]  = stdx::reduce(linear[i]);
-        sums.angular_momentum[i] = stdx::reduce(angular[i]);
+        sums.kinetic += stdx::reduce(sum.kinetic);
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            sums.linear_momentum[i] += stdx::reduce(sum.linear[i]);
+            sums.angular_momentum[i] += stdx::reduce(sum.angular[i]);
+          }
       }
     if (vertex_mass > 0.)
       add_motion_of_vertices(displacement, velocity, sums);

@@ -1,6 +1,6 @@
 #include <supple/mechanics/configuration.h>
 
-#include <deal.II/base/mpi.h>
+#include <supple/base/gather.h>
 
 #include <nlohmann/json.hpp>
 
@@ -29,13 +29,12 @@ namespace Supple
             for (unsigned int k = 0; k < n_numbers; ++k)
               own.push_back(pack(c / n_lanes, k)[c % n_lanes]);
           }
-      const auto parts = Utilities::MPI::gather(body.mesh.communicator, own);
-      if (parts.empty())
+      const std::vector<double> all = gathered_on_first(own, body.mesh.communicator);
+      if (all.empty())
         return {};
       std::vector<double> values(n_numbers * static_cast<std::size_t>(body.mesh.n_cells));
-      for (const auto &part : parts)
-        for (std::size_t at = 0; at < part.size(); at += 1 + n_numbers)
-          std::copy_n(&part[at + 1], n_numbers, &values[n_numbers * std::size_t(part[at])]);
+      for (std::size_t at = 0; at < all.size(); at += 1 + n_numbers)
+        std::copy_n(&all[at + 1], n_numbers, &values[n_numbers * std::size_t(all[at])]);
       return values;
     }
 

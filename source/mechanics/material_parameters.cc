@@ -140,8 +140,10 @@ namespace Supple
             origin + ": '" + item +
             "' is not of the form id: Young modulus, Poisson ratio, density, with a positive "
             "modulus and density and a ratio greater than -1 and less than 0.5.");
-        materials[std::stoul(found[1])] =
+        const auto material =
           from_young_poisson(std::stod(numbers[0]), std::stod(numbers[1]), std::stod(numbers[2]));
+        if (!materials.emplace(std::stoul(found[1]), material).second)
+          throw InputError(origin + ": the material id " + found[1].str() + " is given twice.");
       }
     return materials;
   }

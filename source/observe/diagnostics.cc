@@ -84,6 +84,9 @@ namespace Supple
         ++worst.energy_rises;
         worst.energy_risen += rise;
       }
+    most_dissipated     = std::max(most_dissipated, measurement.dissipated);
+    worst.energy_gained = std::max(worst.energy_gained, most_dissipated - measurement.dissipated);
+    worst.motion_energy = std::max(worst.motion_energy, measurement.kinetic + measurement.elastic);
   }
 
 
@@ -93,10 +96,13 @@ namespace Supple
     return {{"elastic", elastic},
             {"total", total},
             {"dissipated", dissipated},
+            {"most_dissipated", most_dissipated},
             {"work", work},
             {"largest_energy", largest_energy},
             {"energy_rises", worst.energy_rises},
             {"energy_risen", worst.energy_risen},
+            {"energy_gained", worst.energy_gained},
+            {"motion_energy", worst.motion_energy},
             {"most_inverted", worst.most_inverted},
             {"min_volume_ratio", worst.min_volume_ratio},
             {"max_volume_ratio", worst.max_volume_ratio},
@@ -111,10 +117,13 @@ namespace Supple
     elastic                = saved.at("elastic");
     total                  = saved.at("total");
     dissipated             = saved.at("dissipated");
+    most_dissipated        = saved.at("most_dissipated");
     work                   = saved.at("work");
     largest_energy         = saved.at("largest_energy");
     worst.energy_rises     = saved.at("energy_rises");
     worst.energy_risen     = saved.at("energy_risen");
+    worst.energy_gained    = saved.at("energy_gained");
+    worst.motion_energy    = saved.at("motion_energy");
     worst.most_inverted    = saved.at("most_inverted");
     worst.min_volume_ratio = saved.at("min_volume_ratio");
     worst.max_volume_ratio = saved.at("max_volume_ratio");

@@ -1,12 +1,12 @@
 #include <supple/observe/profiles.h>
 
 #include <supple/base/error.h>
+#include <supple/base/gather.h>
 #include <supple/input/entries.h>
 #include <supple/mechanics/selection.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace Supple
@@ -72,7 +72,7 @@ namespace Supple
                  const Vector &displacement) const
   {
     // Each row begins with what it is sorted by.
-    std::vector<std::vector<double>> here, sorted;
+    std::vector<std::array<double, 10>> here;
     for (const unsigned int node : profiles[profile].nodes)
       {
         const Point<3> rest = body.position(node);
@@ -80,25 +80,25 @@ namespace Supple
         for (unsigned int i = 0; i < 3; ++i)
           u[i] = displacement.local_element(3 * node + i);
         const Point<3> x = rest + u;
-        here.push_back({body.mesh.section.plane() ? rest[0] : distance(rest),
-                        double(body.serial_vertex[node]),
-                        distance(x),
-                        -u[1],
-                        x[0],
-                        x[1],
-                        x[2],
-                        u[0],
-                        u[1],
-                        u[2]});
+        here.push_back({{body.mesh.section.plane() ? rest[0] : distance(rest),
+                         double(body.serial_vertex[node]),
+                         distance(x),
+                         -u[1],
+                         x[0],
+                         x[1],
+                         x[2],
+                         u[0],
+                         u[1],
+                         u[2]}});
       }
-    for (const auto &part : Utilities::MPI::gather(body.mesh.communicator, here))
-      sorted.insert(sorted.end(), part.begin(), part.end());
-    std::sort(sorted.begin(), sorted.end());
-    for (auto &row : sorted)
+    std::vector<std::array<double, 10>> all = gathered_on_first(here, body.mesh.communicator);
+    std::sort(all.begin(), all.end());
+    std::vector<std::vector<double>> rows;
+    for (const auto &row : all)
       {
-        row[0] = time;
-        row.insert(row.begin(), step);
+        rows.push_back({double(step), time});
+        rows.back().insert(rows.back().end(), row.begin() + 1, row.end());
       }
-    return sorted;
+    return rows;
   }
 } // namespace Supple

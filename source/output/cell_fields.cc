@@ -8,8 +8,7 @@ namespace Supple
   CellFields::CellFields(const Configuration &configuration, const ElasticForce &elastic)
   {
     const Body &body = configuration.body;
-    for (auto *const field :
-         {&volume_ratio, &von_mises_stress, &rotation_angle, &material, &pressure})
+    for (auto *const field : {&volume_ratio, &von_mises_stress, &rotation_angle, &pressure})
       field->resize(body.mesh.parts->n_cells);
     const std::vector<CellState> states = elastic.states(configuration);
     for (std::size_t c = 0; c < states.size(); ++c)
@@ -18,7 +17,6 @@ namespace Supple
         volume_ratio[cell]      = states[c].volume_ratio;
         von_mises_stress[cell]  = states[c].von_mises_stress;
         rotation_angle[cell]    = states[c].rotation_angle;
-        material[cell]          = body.cell_material[c];
         pressure[cell]          = states[c].pressure;
       }
   }
@@ -36,13 +34,12 @@ namespace Supple
   }
 
 
-  std::array<std::pair<const char *, const std::vector<float> *>, 5>
+  std::array<std::pair<const char *, const std::vector<float> *>, 4>
   CellFields::named() const
   {
     return {{{"volume_ratio", &volume_ratio},
              {"von_mises_stress", &von_mises_stress},
              {"rotation_angle", &rotation_angle},
-             {"material", &material},
              {"pressure", &pressure}}};
   }
 } // namespace Supple

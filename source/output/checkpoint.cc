@@ -2,6 +2,7 @@
 
 #include <supple/base/error.h>
 #include <supple/base/files.h>
+#include <supple/base/gather.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -140,10 +141,10 @@ namespace Supple
         for (unsigned int i = 0; i < 3; ++i)
           own.push_back(vector.local_element(3 * node + i));
       }
+    const std::vector<double> all = gathered_on_first(own, body.mesh.communicator);
     std::vector<double> values(3 * body.mesh.n_vertices);
-    for (const auto &part : Utilities::MPI::gather(body.mesh.communicator, own))
-      for (std::size_t k = 0; k < part.size(); k += 4)
-        std::copy_n(&part[k + 1], 3, &values[3 * static_cast<std::size_t>(part[k])]);
+    for (std::size_t k = 0; k < all.size(); k += 4)
+      std::copy_n(&all[k + 1], 3, &values[3 * static_cast<std::size_t>(all[k])]);
     return values;
   }
 
@@ -175,7 +176,8 @@ namespace Supple
         std::error_code problem; // write_whole_file() speaks of a folder that is gone
         if (whole_content(file)) // a damaged one must not take the place of a whole one
           std::filesystem::rename(file, previous_file, problem);
-        write_whole_file(file, head + checksum(content) + content);
+        sync_folder(std::filesystem::path(file).parent_path(), "solution"); // what it goes on with
+        write_durable_file(file, head + checksum(content) + content);
       }
     last_step = step;
     last_time = std::chrono::steady_clock::now();

@@ -1,6 +1,7 @@
 #include <supple/output/film.h>
 
 #include <supple/base/error.h>
+#include <supple/base/gather.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -20,17 +21,6 @@ namespace Supple
   {
     const std::string magic     = "supple frames 1\n";
     const std::size_t head_size = magic.size() + sizeof(std::uint64_t);
-
-
-    template <class Value>
-    std::vector<Value>
-    gathered(const std::vector<Value> &own, const MPI_Comm communicator)
-    {
-      std::vector<Value> all;
-      for (const std::vector<Value> &part : Utilities::MPI::gather(communicator, own))
-        all.insert(all.end(), part.begin(), part.end());
-      return all;
-    }
 
 
     /** Where each of these comes to stand when they are sorted. */
@@ -160,10 +150,10 @@ namespace Supple
       }
 
     const MPI_Comm communicator = body.mesh.communicator;
-    vertices                    = gathered(vertices, communicator);
-    corners                     = gathered(corners, communicator);
-    positions                   = gathered(positions, communicator);
-    unsorted_materials          = gathered(unsorted_materials, communicator);
+    vertices                    = gathered_on_first(vertices, communicator);
+    corners                     = gathered_on_first(corners, communicator);
+    positions                   = gathered_on_first(positions, communicator);
+    unsorted_materials          = gathered_on_first(unsorted_materials, communicator);
     if (root)
       sort_surface(vertices, positions, corners, unsorted_materials);
   }
@@ -249,18 +239,21 @@ namespace Supple
   Film::write(const Drawing &drawing)
   {
     std::vector<float> nodal;
+    nodal.reserve(3 * own_nodes.size());
     for (const unsigned int node : own_nodes)
       for (unsigned int d = 0; d < 3; ++d)
         nodal.push_back(drawing.displacement.local_element(3 * node + d));
     std::vector<float> ratios, stresses;
+    ratios.reserve(own_triangles.size());
+    stresses.reserve(own_triangles.size());
     for (const Triangle &triangle : own_triangles)
       {
         ratios.push_back(drawing.cells.volume_ratio[triangle.cell_index]);
         stresses.push_back(drawing.cells.von_mises_stress[triangle.cell_index]);
       }
-    nodal    = gathered(nodal, body.mesh.communicator);
-    ratios   = gathered(ratios, body.mesh.communicator);
-    stresses = gathered(stresses, body.mesh.communicator);
+    nodal    = gathered_on_first(nodal, body.mesh.communicator);
+    ratios   = gathered_on_first(ratios, body.mesh.communicator);
+    stresses = gathered_on_first(stresses, body.mesh.communicator);
     if (!root)
       return;
 

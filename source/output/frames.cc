@@ -1,8 +1,8 @@
 #include <supple/output/frames.h>
 
 #include <supple/base/files.h>
+#include <supple/base/text.h>
 
-#include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace Supple
 {
@@ -25,6 +24,7 @@ namespace Supple
     , body(configuration.body)
     , parameters(parameters)
     , folder(folder)
+    , vtu(*body.mesh.parts)
   {
     body.initialize(last_displacement);
     if (parameters.report)
@@ -156,9 +156,7 @@ namespace Supple
     records.emplace_back(now.time, "solution/" + name + (parallel ? ".pvtu" : ".vtu"));
     if (Utilities::MPI::this_mpi_process(body.mesh.communicator) == 0)
       {
-        std::ostringstream record;
-        DataOutBase::write_pvd_record(record, records);
-        write_whole_file(folder + "/solution.pvd", record.str());
+        write_whole_file(folder + "/solution.pvd", collection());
       }
 
     min_volume_ratio =
@@ -171,36 +169,31 @@ namespace Supple
   }
 
 
+  std::string
+  Frames::collection() const
+  {
+    std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n"
+      "<Collection>\n";
+    for (const auto &[time, file] : records)
+      text += "<DataSet timestep=\"" + digits(time, 15) + "\" file=\"" + file + "\"/>\n";
+    return text + "</Collection>\n</VTKFile>\n";
+  }
+
+
   void
   Frames::draw_state(const Measurement &now, const std::string &name)
   {
     const State &state = configuration.state;
-    Vector deformed;
-    body.initialize(deformed);
-    for (unsigned int node = 0; node < body.n_owned; ++node)
-      for (unsigned int i = 0; i < 3; ++i)
-        deformed.local_element(3 * node + i) =
-          body.positions[node][i] + state.displacement.local_element(3 * node + i);
-    const CellFields &of_cells = fields(now.step);
-
-    // Drawing works with whole vectors: ghost values stay valid until it is done.
-    std::vector<const Vector *> drawn = {&deformed, &state.displacement};
-    if (state.has_velocity())
-      drawn.push_back(&state.velocity);
-    for (const Vector *const vector : drawn)
-      vector->update_ghost_values();
     const Drawing drawing{now.time,
                           now.step,
-                          deformed,
                           state.displacement,
                           state.has_velocity() ? &state.velocity : nullptr,
-                          of_cells};
+                          fields(now.step)};
     write_pieces(drawing, name);
     if (film)
       film->write(drawing);
     cells.reset();
-    for (const Vector *const vector : drawn)
-      vector->zero_out_ghost_values();
   }
 
 
@@ -214,7 +207,7 @@ namespace Supple
     for (unsigned int r = 0; r < n_ranks; ++r)
       pieces.push_back(n_ranks == 1 ? name + ".vtu" : name + "." + std::to_string(r) + ".vtu");
 
-    const auto [part, record] = draw(*body.mesh.parts, drawing, pieces);
+    const auto [part, record] = vtu.draw(drawing, pieces);
     write_whole_file(folder + "/solution/" + pieces[rank], part);
     if (n_ranks > 1)
       {

@@ -1,95 +1,95 @@
 #include <supple/output/vtu.h>
 
-#include <deal.II/base/data_out_base.h>
-#include <deal.II/grid/reference_cell.h>
-
-#include <sstream>
-#include <tuple>
-
 namespace Supple
 {
-  using namespace dealii;
-
-  namespace
+  Vtu::Vtu(const DistributedMesh &mesh)
+    : mesh(mesh)
+    , piece(make_piece())
   {
-    using Component = DataComponentInterpretation::DataComponentInterpretation;
+  }
 
 
-    /** The vectors of nodes, with their names in the file. */
-    std::vector<std::pair<std::string, const Vector *>>
-    node_fields(const Drawing &drawing)
-    {
-      std::vector<std::pair<std::string, const Vector *>> fields = {
-        {"displacement", &drawing.displacement}};
-      if (drawing.velocity)
-        fields.emplace_back("velocity", drawing.velocity);
-      return fields;
-    }
-
-
-    /** The cells of this process, each with points and values of its own, as deal.II writes them.
-     */
-    template <int dim>
-    std::vector<DataOutBase::Patch<dim, 3>>
-    pieces(const DistributedMesh &mesh, const Drawing &drawing)
-    {
-      const auto of_nodes        = node_fields(drawing);
-      const auto of_cells        = drawing.cells.named();
-      const std::size_t n_values = 3 * of_nodes.size() + of_cells.size();
-      std::vector<DataOutBase::Patch<dim, 3>> pieces;
-      for (const LocalCell &cell : mesh.cells)
+  VtuPiece
+  Vtu::make_piece()
+  {
+    const bool plane = mesh.dimension == 2;
+    VtuCells grid{plane ? 5u : 10u, mesh.dimension + 1, {}};
+    std::vector<bool> is_drawn(mesh.n_local, false);
+    std::vector<float> material;
+    for (const LocalCell &cell : mesh.cells)
+      if (cell.owned)
         {
-          if (!cell.owned)
-            continue;
-          pieces.emplace_back();
-          auto &piece          = pieces.back();
-          piece.patch_index    = pieces.size() - 1;
-          piece.n_subdivisions = 1;
-          piece.reference_cell = ReferenceCells::get_simplex<dim>();
-          piece.data.reinit(n_values, dim + 1);
-          for (unsigned int a = 0; a <= dim; ++a)
-            {
-              const std::size_t first = 3 * std::size_t(cell.nodes[a]);
-              for (unsigned int i = 0; i < 3; ++i)
-                piece.vertices[a][i] = drawing.positions.local_element(first + i);
-              unsigned int value = 0;
-              for (const auto &field : of_nodes)
-                for (unsigned int i = 0; i < 3; ++i)
-                  piece.data(value++, a) = field.second->local_element(first + i);
-              for (const auto &field : of_cells)
-                piece.data(value++, a) = (*field.second)[cell.index];
-            }
+          cells.push_back(cell.index);
+          material.push_back(cell.material_id);
+          for (unsigned int a = 0; a < grid.points_per_cell; ++a)
+            is_drawn[cell.nodes[a]] = true;
         }
-      return pieces;
-    }
-  } // namespace
+
+    std::vector<unsigned int> point_of(mesh.n_local);
+    for (unsigned int node = 0; node < mesh.n_local; ++node)
+      if (is_drawn[node])
+        {
+          point_of[node] = nodes.size();
+          nodes.push_back(node);
+        }
+    for (const LocalCell &cell : mesh.cells)
+      if (cell.owned)
+        for (unsigned int a = 0; a < grid.points_per_cell; ++a)
+          grid.points.push_back(point_of[cell.nodes[a]]);
+    return VtuPiece(grid, {{"material", 1, &material}});
+  }
+
+
+  std::vector<float>
+  Vtu::at_points(const Vector &vector) const
+  {
+    const GhostValues values(vector);
+    std::vector<float> at_points(3 * nodes.size());
+    for (std::size_t point = 0; point < nodes.size(); ++point)
+      for (unsigned int i = 0; i < 3; ++i)
+        at_points[3 * point + i] = values.data()[3 * std::size_t(nodes[point]) + i];
+    return at_points;
+  }
+
+
+  std::vector<float>
+  Vtu::of_cells(const std::vector<float> &values) const
+  {
+    std::vector<float> of_cells(cells.size());
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      of_cells[c] = values[cells[c]];
+    return of_cells;
+  }
 
 
   std::pair<std::string, std::string>
-  draw(const DistributedMesh &mesh, const Drawing &drawing, const std::vector<std::string> &names)
+  Vtu::draw(const Drawing &drawing, const std::vector<std::string> &names) const
   {
-    std::vector<std::string> names_of_values;
-    std::vector<std::tuple<unsigned int, unsigned int, std::string, Component>> vectors;
-    for (const auto &field : node_fields(drawing))
+    std::vector<double> points(3 * nodes.size());
+    {
+      const GhostValues u(drawing.displacement);
+      for (std::size_t point = 0; point < nodes.size(); ++point)
+        for (unsigned int i = 0; i < 3; ++i)
+          points[3 * point + i] =
+            mesh.positions[nodes[point]][i] + u.data()[3 * std::size_t(nodes[point]) + i];
+    }
+    const std::vector<float> displacement = at_points(drawing.displacement);
+    VtuPiece::Instant now{
+      drawing.time, drawing.step, points, {{"displacement", 3, &displacement}}, {}};
+    std::vector<float> velocity;
+    if (drawing.velocity)
       {
-        const unsigned int first = names_of_values.size();
-        vectors.emplace_back(first,
-                             first + 2,
-                             field.first,
-                             DataComponentInterpretation::component_is_part_of_vector);
-        names_of_values.insert(names_of_values.end(), 3, field.first);
+        velocity = at_points(*drawing.velocity);
+        now.of_points.push_back({"velocity", 3, &velocity});
       }
-    for (const auto &field : drawing.cells.named())
-      names_of_values.push_back(field.first);
-
-    DataOutBase::VtkFlags flags(drawing.time, drawing.step);
-    flags.compression_level = DataOutBase::VtkFlags::best_speed;
-    std::ostringstream part, record;
-    if (mesh.dimension == 2)
-      DataOutBase::write_vtu(pieces<2>(mesh, drawing), names_of_values, vectors, flags, part);
-    else
-      DataOutBase::write_vtu(pieces<3>(mesh, drawing), names_of_values, vectors, flags, part);
-    DataOutBase::write_pvtu_record(record, names, names_of_values, vectors, flags);
-    return {part.str(), record.str()};
+    std::vector<std::vector<float>> fields;
+    const auto named = drawing.cells.named();
+    fields.reserve(named.size());
+    for (const auto &[name, values] : named)
+      {
+        fields.push_back(of_cells(*values));
+        now.of_cells.push_back({name, 1, &fields.back()});
+      }
+    return {piece.file(now), piece.record(now, names)};
   }
 } // namespace Supple

@@ -9,14 +9,17 @@
  */
 
 #include <supple/base/error.h>
+#include <supple/base/lone_process.h>
 #include <supple/input/command_line.h>
 #include <supple/program/tasks.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
+#include <csignal>
 #include <iostream>
 #include <new>
+#include <optional>
 
 
 int
@@ -24,7 +27,10 @@ main(int argc, char **argv)
 {
   // Only the program's name: libraries behind deal.II would take our options for theirs.
   int n_names = 1;
+  std::optional<Supple::LoneProcess> lone_process(std::in_place);
   dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, argv, 1);
+  lone_process.reset();
+  std::signal(SIGPIPE, SIG_IGN); // whoever reads the screen may go away, as in supple ... | head
   dealii::deal_II_exceptions::disable_abort_on_exception(); // whatever fails ends with a message
 
   const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;

@@ -48,6 +48,6 @@ namespace Supple
     std::string page = report_page;
     replace(page, "SUPPLE_SURFACE", dealii::Utilities::encode_base64(surface));
     replace(page, "SUPPLE_DATA", safe);
-    write_whole_file(folder + "/" + page_file, page);
+    write_durable_file(folder + "/" + page_file, page);
   }
 } // namespace Supple

@@ -1,9 +1,14 @@
 #include <supple/run/checkpoints.h>
 
 #include <supple/base/error.h>
+#include <supple/base/first_process.h>
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 namespace Supple
@@ -75,8 +80,33 @@ namespace Supple
       {
         checkpoint.refuse_content();
       }
+    require_later_end();
     course.origin                  = checkpoint.origin();
     course.origin_is_second_choice = checkpoint.was_damaged();
+  }
+
+
+  void
+  Checkpoints::require_later_end() const
+  {
+    on_first_process(problem.mesh.communicator, [this] {
+      double done = course.now.time;
+      std::ifstream history(folder + "/" + HistoryTable::files()[0]);
+      std::string line, last;
+      while (std::getline(history, line))
+        last = line;
+      const auto begin = last.find(',') + 1;
+      const double row = std::strtod(last.c_str() + std::min(begin, last.size()), nullptr); // time
+      done             = std::max(done, row);
+      if (done <= integrator.end * (1. + 1e-9))
+        return;
+      std::ostringstream text;
+      text << problem.parameters.origin("Time/Steps") << ": the run would end at " << integrator.end
+           << " s, but the one to go on from has come to " << done
+           << " s: what it wrote would be lost. Let the run be longer, or begin anew with "
+              "Checkpoint/Resume = never.";
+      throw InputError(text.str());
+    });
   }
 
 

@@ -2,6 +2,7 @@
 
 #include <supple/base/progress.h>
 #include <supple/base/text.h>
+#include <supple/scene/idle_entries.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -42,12 +43,14 @@ namespace Supple
                            const TimeIntegrator &integrator,
                            const Probes &probes,
                            const Diagnostics &diagnostics,
-                           const Course &course)
+                           const Course &course,
+                           const SkippedPulses &pulses)
     : problem(problem)
     , integrator(integrator)
     , probes(probes)
     , diagnostics(diagnostics)
     , course(course)
+    , pulses(pulses)
   {
   }
 
@@ -157,7 +160,11 @@ namespace Supple
                      "(subsection Time).");
     if (!problem.constraints.free_pieces_in_words().empty())
       list.push_back(problem.constraints.free_pieces_in_words());
+    if (problem.constraints.n_held == body.n_dofs())
+      list.push_back("All vertices of the body are held or moved: nothing is left to be found.");
     list.insert(list.end(), probes.warnings().begin(), probes.warnings().end());
+    const std::vector<std::string> idle = idle_entries(problem.parameters);
+    list.insert(list.end(), idle.begin(), idle.end());
     if (problem.parameters.corotation.rotation == RotationMethod::gram_schmidt)
       list.push_back(
         "Gram-Schmidt rotations have no elastic energy: 'elastic' is the energy of the same "
@@ -209,6 +216,8 @@ namespace Supple
                      " steps a prescribed motion jumps, or swings to and fro: what it does to the "
                      "body depends on the step and the mesh. Move it over some steps, such as by "
                      "min(t/0.1, 1), or take shorter ones.");
+    const std::vector<std::string> skipped = pulses.warnings();
+    list.insert(list.end(), skipped.begin(), skipped.end());
     return list;
   }
 
@@ -253,12 +262,14 @@ namespace Supple
   std::string
   Description::energy_from_nowhere() const
   {
-    if (-course.now.dissipated <= 0.2 * course.largest_energy || !problem.forces.have_energy())
+    const double gained = diagnostics.extremes().energy_gained;
+    const double motion = diagnostics.extremes().motion_energy;
+    if (gained <= 0.01 * motion || !problem.forces.have_energy())
       return "";
     std::ostringstream text;
-    text << "The time stepping added " << -course.now.dissipated << " J to a motion of at most "
-         << course.largest_energy
-         << " J: it is not to be trusted. Take shorter steps, variable steps or another method.";
+    text << "The time stepping added " << gained << " J to a motion of at most " << motion << " J"
+         << (gained > 0.2 * motion ? ": it is not to be trusted." : ".")
+         << " Take shorter steps, variable steps or another method.";
     return text.str();
   }
 

@@ -1,6 +1,7 @@
 #include <supple/run/results.h>
 
 #include <supple/base/files.h>
+#include <supple/base/first_process.h>
 #include <supple/report/report.h>
 #include <supple/report/report_page.h>
 
@@ -34,12 +35,25 @@ namespace Supple
 
 
   void
-  Results::open(const bool resumed, const unsigned int step) const
+  Results::lock_folder()
+  {
+    if (writes)
+      on_first_process(communicator, [&] {
+        if (std::filesystem::is_directory(folder))
+          lock = std::make_unique<const FolderLock>(folder);
+      });
+  }
+
+
+  void
+  Results::open(const bool resumed, const unsigned int step)
   {
     if (!writes)
       return;
     prepare_output_folder(folder, communicator, [&] {
       std::filesystem::create_directories(folder);
+      if (!lock)
+        lock = std::make_unique<const FolderLock>(folder);
       if (!resumed)
         remove_files(folder, own_files);
       write_whole_file(folder + "/parameters.prm", parameters.as_used);
@@ -55,11 +69,11 @@ namespace Supple
     if (!writes || dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
       return;
     const Json json = summary.to_json();
-    write_whole_file(folder + "/" + summary_file, json.dump(2) + "\n");
-    if (!writes_report)
-      return;
-    write_report(folder, parameters, json, film);
-    if (film && !parameters.checkpoint.wanted())
+    sync_folder(folder, "solution"); // the summary tells of files that are there
+    if (writes_report)
+      write_report(folder, parameters, json, film);
+    write_durable_file(folder + "/" + summary_file, json.dump(2) + "\n");
+    if (writes_report && film && !parameters.checkpoint.wanted())
       film->remove(); // no run will go on from here
   }
 

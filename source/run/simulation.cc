@@ -30,6 +30,7 @@ namespace Supple
     , integrator(create_integrator(problem.model()))
     , diagnostics(problem.configuration, problem.forces, problem.stationary)
     , second_run(make_second_run())
+    , pulses(problem.parameters, problem.mesh.bounding_box)
     , start_displacement(problem.configuration.displacement())
     , results(folder, problem.parameters, communicator)
     , interruption(communicator)
@@ -83,6 +84,7 @@ namespace Supple
                                                     problem.configuration,
                                                     problem.forces.elastic(),
                                                     parameters.output));
+    listeners.add(&pulses);
     listeners.add(guest);
     listeners.add(second_run.get());
     listeners.add(results.add<ErrorTable>(history && second_run, effort, second_run.get()));
@@ -97,6 +99,7 @@ namespace Supple
   Simulation::run(Listener *const guest)
   {
     add_listeners(guest);
+    results.lock_folder();
     if (checkpoints)
       checkpoints->resume();
     if (!course.resumed())
@@ -172,7 +175,7 @@ namespace Supple
   Description
   Simulation::description() const
   {
-    return {problem, *integrator, probes, diagnostics, course};
+    return {problem, *integrator, probes, diagnostics, course, pulses};
   }
 
 
@@ -188,8 +191,7 @@ namespace Supple
         const std::string wrong = objection(next);
         if (!wrong.empty())
           refuse(wrong, next);
-        course.now            = next;
-        course.largest_energy = std::max(course.largest_energy, next.kinetic + next.elastic);
+        course.now = next;
       }
     problem.configuration.accept();
     course.now.step = after_step;

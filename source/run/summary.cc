@@ -112,6 +112,7 @@ namespace Supple
     {
       return {{"energy_rises", extremes.energy_rises},
               {"energy_risen", extremes.energy_risen},
+              {"energy_gained", extremes.energy_gained},
               {"most_inverted", extremes.most_inverted},
               {"min_volume_ratio", extremes.min_volume_ratio},
               {"max_volume_ratio", extremes.max_volume_ratio},

@@ -8,23 +8,37 @@
 
 namespace Supple
 {
-  namespace
+  StateTable::StateTable(const std::string &folder,
+                         Effort &effort,
+                         const std::string &name,
+                         const std::vector<std::string> &columns)
+    : Writer(folder, effort)
+    , file(folder + "/" + name)
+    , columns(columns)
   {
-    /** A table with a row for each state, the start included. */
-    std::unique_ptr<CsvFile>
-    open_table(const std::string &file,
-               const std::vector<std::string> &columns,
-               const bool resumed,
-               const unsigned int step)
-    {
-      return resumed ? std::make_unique<CsvFile>(file, step + 1ul)
-                     : std::make_unique<CsvFile>(file, columns);
-    }
-  } // namespace
+  }
+
+
+  void
+  StateTable::open(const bool resumed, const unsigned int step)
+  {
+    table = resumed ? std::make_unique<CsvFile>(file, step + 1ul)
+                    : std::make_unique<CsvFile>(file, columns);
+  }
+
+
+  bool
+  StateTable::after_step(const Observation &now)
+  {
+    const PhaseTimer timer(effort, Phase::output);
+    if (table)
+      table->write_row(row(now));
+    return true;
+  }
 
 
   HistoryTable::HistoryTable(const std::string &folder, Effort &effort)
-    : Writer(folder, effort)
+    : StateTable(folder, effort, files()[0], Measurement::column_names())
   {
   }
 
@@ -36,26 +50,15 @@ namespace Supple
   }
 
 
-  void
-  HistoryTable::open(const bool resumed, const unsigned int step)
+  std::vector<double>
+  HistoryTable::row(const Observation &now) const
   {
-    table = open_table(folder + "/" + files()[0], Measurement::column_names(), resumed, step);
-  }
-
-
-  bool
-  HistoryTable::after_step(const Observation &now)
-  {
-    const PhaseTimer timer(effort, Phase::output);
-    if (table)
-      table->write_row(now.measurement.row());
-    return true;
+    return now.measurement.row();
   }
 
 
   ProbeTable::ProbeTable(const std::string &folder, Effort &effort, const Probes &probes)
-    : Writer(folder, effort)
-    , probes(probes)
+    : StateTable(folder, effort, files()[0], probes.column_names())
   {
   }
 
@@ -67,20 +70,10 @@ namespace Supple
   }
 
 
-  void
-  ProbeTable::open(const bool resumed, const unsigned int step)
+  std::vector<double>
+  ProbeTable::row(const Observation &now) const
   {
-    table = open_table(folder + "/" + files()[0], probes.column_names(), resumed, step);
-  }
-
-
-  bool
-  ProbeTable::after_step(const Observation &now)
-  {
-    const PhaseTimer timer(effort, Phase::output);
-    if (table)
-      table->write_row(now.probes);
-    return true;
+    return now.probes;
   }
 
 

@@ -1,6 +1,7 @@
 #include <supple/scene/task_parameters.h>
 
 #include <supple/base/error.h>
+#include <supple/input/command_line.h>
 #include <supple/scene/read_scene.h>
 
 #include <deal.II/base/utilities.h>
@@ -37,6 +38,7 @@ namespace Supple
     for (const std::string &part : split_outside_brackets(text, '|'))
       if (!trim(part).empty())
         list.push_back({trim(part), place});
+    require_single(list);
     return list;
   }
 

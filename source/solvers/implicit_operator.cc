@@ -99,7 +99,7 @@ namespace Supple
   {
     const PhaseTimer timer(effort, Phase::assembly);
     matrix.set_zero();
-    forces.add_bounded_tangent(configuration, factors, matrix, added_bulk);
+    forces.add_tangent(configuration, factors, matrix, added_bulk);
     if (diagonal != 0.)
       matrix.add_to_diagonal(diagonal);
     mask(matrix);

@@ -114,11 +114,12 @@ namespace Supple
 
 
   void
-  Study::open_output() const
+  Study::open_output()
   {
     prepare_output_folder(folder, communicator, [&] {
       namespace fs = std::filesystem;
       fs::create_directories(folder);
+      lock = std::make_unique<const FolderLock>(folder);
       for (const char *name : {"study.csv", "study.md", "report.html"})
         fs::remove(fs::path(folder) / name);
       for (const char *plot : {"work_precision", "convergence"})
@@ -163,6 +164,24 @@ namespace Supple
         say(sentence);
     const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - start;
     say("done in " + readable_duration(duration.count()) + ": " + folder + "/study.md");
+    require_any_right();
+  }
+
+
+  void
+  Study::require_any_right() const
+  {
+    const bool any = std::any_of(table.rows.begin(), table.rows.end(), [](const StudyRow &row) {
+      return row.status == StudyRecord::Status::done && row.verdict != "wrong";
+    });
+    if (any || table.rows.empty())
+      return;
+    const StudyRow &first = table.rows.front();
+    throw ComputationError("None of the " + std::to_string(table.rows.size()) +
+                           " runs of the study is done" + (table.judged ? " and right" : "") +
+                           "; the first: " + first.run.label() + ": " + first.status_text() +
+                           (first.verdict.empty() ? "" : ", " + first.verdict) +
+                           ". The table is in " + folder + ".");
   }
 
 

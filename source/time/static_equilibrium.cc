@@ -11,7 +11,7 @@ namespace Supple
   StaticEquilibrium::StaticEquilibrium(const Model &model)
     : TimeIntegrator(model, 1.)
   {
-    for (Vector *vector : {&residual, &correction, &free_residual, &loads})
+    for (Vector *vector : {&residual, &correction, &free_residual, &loads, &working})
       model.body.initialize(*vector);
     force_accuracy = model.forces.round_off(model.configuration);
   }
@@ -94,6 +94,12 @@ namespace Supple
     report.time = load_factor;
     report.dt   = load_factor - time;
     configuration.begin_step();
+    if (observed && !started)
+      {
+        Effort uncounted; // these forces are for the eye alone
+        model.forces.set_force(residual, configuration, 1., uncounted, time);
+        set_forces(residual, time);
+      }
     try
       {
         find_equilibrium(load_factor, report);
@@ -103,23 +109,54 @@ namespace Supple
         configuration.reject(model.effort);
         throw;
       }
-    time = load_factor;
-    ++n_done;
-
     if (observed)
       {
-        correction = residual;
-        correction *= -1.;
-        set_reactions(correction);
-        correction = configuration.displacement();
-        correction -= configuration.start_of_step().displacement;
-        if (model.forces.do_work())
-          {
-            model.forces.set_working(loads, configuration, 1.);
-            report.load_work = load_factor * (loads * correction);
-          }
+        Vector way = configuration.displacement();
+        way -= configuration.start_of_step().displacement;
+        report.load_work = half_work(way);
+        set_forces(residual, load_factor);
+        report.load_work += half_work(way) + work_of_growth(load_factor - time);
       }
+    started = observed;
+    time    = load_factor;
+    ++n_done;
     return report;
+  }
+
+
+  void
+  StaticEquilibrium::set_forces(const Vector &imbalance, const double load_factor)
+  {
+    correction = imbalance;
+    correction *= -1.;
+    set_reactions(correction);
+    if (!model.forces.do_work())
+      return;
+    model.forces.set_working(working, model.configuration, 1.);
+    working *= load_factor;
+  }
+
+
+  double
+  StaticEquilibrium::half_work(const Vector &way) const
+  {
+    return 0.5 * (working * way + reactions() * way);
+  }
+
+
+  double
+  StaticEquilibrium::work_of_growth(const double growth)
+  {
+    const Configuration &configuration = model.configuration;
+    model.forces.set_loads(loads, configuration, 1.);
+    if (model.forces.do_work())
+      {
+        model.forces.set_working(correction, configuration, 1.);
+        loads -= correction;
+      }
+    return -0.5 * growth *
+           (loads * configuration.displacement() +
+            loads * configuration.start_of_step().displacement);
   }
 
 

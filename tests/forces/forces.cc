@@ -170,10 +170,6 @@ namespace
       subsection Constraints
         set Clamped boundaries = 2
       end
-      subsection Damping
-        set Mass factor = 0.5
-        set Stiffness factor = 0.01
-      end
       subsection Loads
         set Gravity = 0; 0; -9.81*(1 + t)
         set Body force = 100; 0; 50*x
@@ -307,7 +303,9 @@ namespace
   test_operator()
   {
     std::printf("The operator against differences of the forces, with rotations held\n");
-    LinkedBody linked(scene("subsection Time\n set Method = implicit midpoint\nend\n"));
+    LinkedBody linked(
+      scene("subsection Time\n set Method = implicit midpoint\nend\nsubsection Damping\n"
+            " set Mass factor = 0.5\n set Stiffness factor = 0.01\nend\n"));
     linked.bend();
     const double gamma = 0.03, h = 1e-4, mass_factor = linked.parameters.damping.mass_factor;
     linked.forces.update_tangent(Tangent::frozen, linked.configuration, 0., linked.effort);

@@ -159,3 +159,44 @@ for first, second, words in [(circle, circle, "circle.prm includes itself"), (ot
 with_setting("Mesh/Map", "x" * 100000, "characters; at most 4000 are read")
 status, _, error = runner.run("--check", runner.BAR, "--set", "Mesh/Map=\x1b[2J" + "x" * 3000)
 runner.check(status == 1 and "\x1b" not in error and "Mesh/Map = ?[2Jxxx" in error and " ... " in error and len(error) < 1500, error)
+
+# Of two lines that set one entry one would count for nothing.
+twice = folder / "twice.prm"
+for text, words in [("subsection Motion\n set Of = boundary 0\nend\nsubsection Motion\n set  Of = all\nend\n",
+                     ["twice.prm:5: Motion/Of is set already", "twice.prm:2", "subsection Motion 2"]),
+                    ("subsection Time\n set Steps = 2\n set Steps=3\nend\n", ["twice.prm:3: Time/Steps", "twice.prm:2"])]:
+    twice.write_text(text)
+    refused([twice], *words)
+base = folder / "base.prm"
+base.write_text("subsection Time\n set Steps = 2\nend\n")
+twice.write_text(f"include {base}\nsubsection Time\n set Steps = 3\nend\n")
+status, output, error = runner.run("--check", twice)
+runner.check(status == 0 and "3 steps" in output, f"an entry of an included file can't be changed: {output} {error}")
+refused([runner.BAR, "--set", "Time/Steps=2", "--set", " Time / Steps =3"], "Time/Steps is set already", "Time/Steps=2")
+with_setting("Material/By id", "1: 1e6, 0.3, 1000; 2: 1e6, 0.3, 1000; 1: 2e6, 0.3, 1000", "material id 1 is given twice")
+
+# What an expression would be read as, though it is not meant.
+for entry, value, words in [
+        ("Loads/Traction", "0; 0; 1,5", "The decimal sign is a point"),
+        ("Loads/Body force", "0; 0; (1,5)*t", "The decimal sign is a point"),
+        ("Loads/Pressure", "2*min(t, 1),5", "The decimal sign is a point"),
+        ("Constraints/Clamped region", "x < 0,15", "The decimal sign is a point"),
+        ("Constraints/Clamped region", "x = 0.1", "Equal is =="),
+        ("Loads/Gravity", "0; 0; if(t = 1, 1, 0)", "Equal is =="),
+        ("Constraints/Clamped region", "x => 0.1", "at least is >="),
+        ("Constraints/Clamped region", "0.05 < x < 0.15", "a < x && x < b"),
+        ("Constraints/Clamped region", "x > 1 && 2 >= y >= 1", "a < x && x < b"),
+        ("Start/Velocity", "0; 0; if(0 < x <= 1, 1, 0)", "a < x && x < b"),
+        ("Mesh/Map", "x; y; z + (0 < x < 1)", "a < x && x < b"),
+        ("Mesh/Boundary regions", "7: 0 <= y <= 1", "a < x && x < b"),
+        ("Probes/Regions", "end: y = 1", "Equal is =="),
+        ("Loads/Body force", ";0;0", "is empty"),
+        ("Loads/Body force", "-;0;0", "can't be read to its end"),
+        ("Loads/Body force", "x y;0;0", 'Unexpected variable "y" found at position 2')]:
+    with_setting(entry, value, words)
+refused([runner.BAR, "--set", "Motion/Of=all", "--set", "Motion/Displacement=0; 0,01*t; 0"], "The decimal sign is a point")
+for entry, value in [("Constraints/Clamped region", "(0.05 < x) && x <= 0.15 || !(y >= 1) == 1"),
+                     ("Loads/Body force", "if(t >= 1, max(1, 2, x), 0); atan2 (x, y); t != 1 ? 1 : 2 < 3"),
+                     ("Constraints/Clamped region", "if(x < 1, y < 1, z > 1 && x <= 2)")]:
+    status, _, error = runner.run("--check", runner.BAR, "--set", f"{entry}={value}")
+    runner.check("reads" not in error and "compares" not in error and "comma" not in error, f"{value}: {error}")

@@ -81,10 +81,10 @@ runner.check(here.returncode == 0 and (folder / "output" / "large" / "summary.js
 status, _, _ = runner.run(runner.BAR, "--quiet", "--set", f"Output/Folder={folder}/named")
 runner.check(status == 0 and (folder / "named" / "summary.json").exists(), "Output/Folder")
 
-# Ctrl-C: exit status 2, and complete files up to the last step.
+# Ctrl-C, a queue, a terminal that is closed: exit status 2, and complete files up to the last step.
 command = [runner.SUPPLE, str(runner.BAR), "--output", str(folder / "interrupted"), "--set", "Time/Steps=100000000",
            "--set", "Output/Frames=every"]
-for sent in [signal.SIGINT, signal.SIGTERM]:
+for sent in [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGXCPU]:
     process = subprocess.Popen(command, env=runner.ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                                text=True)
     while not (folder / "interrupted" / "solution" / "frame_0020.vtu").exists():
@@ -142,3 +142,34 @@ _, error = process.communicate(timeout=60 * runner.PATIENCE)
 runner.check(process.returncode == 2 and "After step" in error and "can't be written" in error, error)
 for frame in (folder / "elsewhere").glob("*.vtu"):
     runner.check(frame.read_bytes().rstrip().endswith(b"</VTKFile>"), f"{frame.name} is half written")
+
+# Under nohup the end of the terminal ends nothing; nor does a reader of the screen that goes away.
+command = ["nohup", runner.SUPPLE, str(runner.BAR), "--output", str(folder / "nohup"), "--set", "Time/Steps=2000"]
+process = subprocess.Popen(command, env=runner.ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+while not (folder / "nohup" / "history.csv").exists():
+    time.sleep(0.02)
+process.send_signal(signal.SIGHUP)
+_, error = process.communicate(timeout=60 * runner.PATIENCE)
+runner.check(process.returncode == 0 and len(runner.Results(folder / "nohup").history()) == 2001, f"nohup: {process.returncode} {error}")
+process = subprocess.Popen([runner.SUPPLE, str(runner.BAR), "--output", str(folder / "piped")], env=runner.ENVIRONMENT,
+                           stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+process.stdout.readline()
+process.stdout.close()
+process.stderr.read()
+runner.check(process.wait() == 0 and (folder / "piped" / "summary.json").exists(), f"| head -1: {process.returncode}")
+
+# Of two runs in one folder the second is refused and touches nothing; what a dead run leaves behind keeps nobody out.
+command = [runner.SUPPLE, str(runner.BAR), "--output", str(folder / "shared"), "--set", "Time/Steps=100000000"]
+process = subprocess.Popen(command, env=runner.ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+while not (folder / "shared" / "history.csv").exists():
+    time.sleep(0.02)
+for arguments in [[], ["--set", "Checkpoint/Resume=auto"]]:
+    status, _, error = runner.run(runner.BAR, "--output", folder / "shared", *arguments)
+    runner.check(status == 1 and "Another run writes into the output folder" in error, f"{status} {error}")
+rows = len((folder / "shared" / "history.csv").read_text().splitlines())
+time.sleep(0.3)
+runner.check(len((folder / "shared" / "history.csv").read_text().splitlines()) > rows, "the first run was disturbed")
+process.kill()
+process.wait()
+status, _, error = runner.run(runner.BAR, "--quiet", "--output", folder / "shared")
+runner.check(status == 0 and len(runner.Results(folder / "shared").history()) == 101, f"after a dead run: {status} {error}")

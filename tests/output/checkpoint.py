@@ -12,6 +12,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import runner
+import vtu
 
 folder = pathlib.Path(tempfile.mkdtemp(prefix="supple-"))
 ALWAYS = {"Solver/Tolerance": 1e-12, "Output/Motion": 0.05, "Checkpoint/Every": 7, "Checkpoint/Resume": "auto"}
@@ -104,6 +105,35 @@ runner.check(status == 0, error)
 compare(whole, runner.Results(folder / "killed"), f"killed {kills} times")
 print(f"killed {kills} times")
 
+# The same while each step writes a frame: those that are there are whole, and in the end they are those of a run that was not
+# killed, byte for byte.
+settings = {**ALWAYS, "Time/Steps": 200, "Output/Frames": "every"}
+whole = runner.simulate(runner.BAR, {**settings, "Checkpoint/Resume": "never"})
+solution = folder / "drawn" / "solution"
+
+
+def n_frames():
+    return len(list(solution.glob("*.vtu"))) if solution.exists() else 0
+
+
+for kills in range(1, 6):
+    before = max(0, n_frames() - 14)
+    process = subprocess.Popen([runner.SUPPLE, str(runner.BAR), "--quiet", "--output", str(folder / "drawn"),
+                                *runner.overrides(settings)], env=runner.ENVIRONMENT)
+    while process.poll() is None and n_frames() < before + 35:
+        pass
+    process.kill()
+    process.wait()
+    for file in solution.glob("*.vtu"):
+        vtu.Frame(file)
+status, error = run("drawn", settings)
+runner.check(status == 0, error)
+for file in [whole.folder / "solution.pvd", *(whole.folder / "solution").iterdir()]:
+    drawn = folder / "drawn" / file.relative_to(whole.folder)
+    runner.check(file.read_bytes() == drawn.read_bytes(), f"{file.name} is not that of the run that was not killed")
+names = [sorted(file.name for file in results.iterdir()) for results in (whole.folder / "solution", solution)]
+runner.check(names[0] == names[1], f"files {names[1]}")
+
 # What does not fit is refused and left as it is.
 file = folder / "polar" / "checkpoint.cbor"
 good = file.read_bytes()
@@ -142,3 +172,16 @@ for steps, kind in [(50, "none"), (60, "adaptive")]:
 later = runner.Results(folder / "frames").frame_times()
 runner.check(later[0] == frames[0] and later[-1] > frames[-1], f"frames at {later}, before at {frames}")
 runner.check(all(a < b for a, b in zip(later, later[1:])), f"frames at {later}")
+
+# Rows that were done are not lost: an end before them is refused, and nothing is touched.
+settings = {"Checkpoint/Every": 7, "Checkpoint/Resume": "auto", "Output/Frames": "none"}
+status, error = run("fewer", {**settings, "Time/Steps": 20})
+runner.check(status == 0, error)
+before = {path: path.read_bytes() for path in (folder / "fewer").iterdir()}
+for steps in (10, 16, 19):
+    status, error = run("fewer", {**settings, "Time/Steps": steps})
+    runner.check(status == 1 and "Time/Steps" in error and "has come to" in error, f"{steps} steps: {status} {error}")
+    runner.check(before == {path: path.read_bytes() for path in (folder / "fewer").iterdir()}, f"{steps} steps: files were touched")
+for steps in (20, 21):
+    status, error = run("fewer", {**settings, "Time/Steps": steps})
+    runner.check(status == 0 and len(runner.Results(folder / "fewer").history()) == steps + 1, f"{steps} steps: {error}")

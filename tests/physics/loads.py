@@ -86,3 +86,21 @@ for settings, words in [({"Loads/Pressure": 1}, "acts nowhere"), ({"Loads/Tracti
                         ({"Loads/Gravity": "0, 0, -min(t, 1)"}, "three expressions")]:
     status, _, error = runner.run("--check", runner.BAR, *runner.overrides(settings))
     runner.check(status == 1 and words in error, f"{settings}: {status} {error}")
+
+# A pulse between the ends of steps, which no method asked for, is told; what the steps follow is not.
+still = {"Start/Velocity": "0; 0; 0", "Loads/Gravity": "0, 0, 0", "Output/Frames": "none", "Time/Step": 0.02, "Time/Steps": 50}
+pulse = "if(t > 0.501 && t < 0.505, 1e6, 0)"
+moved = {"Motion/Of": "boundary 1", "Constraints/Clamped boundaries": 0}
+for settings, told in [({"Loads/Body force": f"0; 0; {pulse}"}, "Loads/Body force rises and falls by 1e+06"),
+                       ({"Loads/Body force": f"0; 0; {pulse}", "Time/Method": "esdirk4", "Time/Variable steps": "true"}, "from 0."),
+                       ({"Loads/Body force": f"0; 0; {pulse}", "Time/Method": "ida"}, "Loads/Body force"),
+                       ({"Loads/Traction": f"0; 0; 1e7 - x*{pulse}", "Loads/Traction on": 1}, "Loads/Traction"),
+                       ({"Loads/Pressure": "1e3*exp(-((t - 0.51)/0.002)^2)", "Loads/Pressure on": 1}, "Loads/Pressure"),
+                       ({"Loads/Nodal force": "0; 0; sin(300*t)"}, "Loads/Nodal force"),
+                       ({"Loads/Gravity": f"0; 0; -1e-6*{pulse}"}, "Loads/Gravity"),
+                       ({**moved, "Motion/Displacement": f"free; free; 1e-8*{pulse}"}, "Motion/Displacement"),
+                       ({"Loads/Body force": f"0; 0; {pulse}", "Time/Step": 0.001, "Time/Steps": 520}, ""),
+                       ({"Loads/Body force": "0; 0; 1e3*sin(20*t) + if(t > 0.55, 1e3, 0)"}, ""),
+                       ({"Loads/Gravity": "0; 0; -9.81*min(t/0.1, 1)"}, "")]:
+    warnings = [text for text in runner.simulate(runner.BAR, {**still, **settings}).summary()["warnings"] if "rises and falls" in text]
+    runner.check(bool(warnings) == bool(told) and all(told in text for text in warnings), f"{settings}: {warnings}")

@@ -31,17 +31,13 @@ def within(what, value, limit):
 
 def pressure_error(results, exact):
     """In L2 over the body at rest, which has hardly moved."""
-    frame = results.folder / "solution" / "frame_0001.vtu"
-    points = vtu.field(frame, "Points")
-    corners = [points[3 * i:3 * i + 3] for i in range(len(points) // 3)]
-    pressure = vtu.field(frame, "pressure")
+    frame = vtu.Frame(results.folder / "solution" / "frame_0001.vtu")
     total = square = 0.0
-    for cell in range(len(corners) // 4):
-        a, b, c, d = corners[4 * cell:4 * cell + 4]
+    for (a, b, c, d), pressure in zip(frame.corners(), frame.of_cells["pressure"]):
         u, v, w = ([q - p for p, q in zip(a, x)] for x in (b, c, d))
         volume = abs(u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]))
         total += volume
-        square += volume * (pressure[4 * cell] / exact - 1)**2
+        square += volume * (pressure / exact - 1)**2
     return math.sqrt(square / total)
 
 

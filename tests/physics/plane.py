@@ -211,12 +211,22 @@ for model in MODELS:
 for model, stress, volume in [("plane strain", math.sqrt(1 - NU + NU**2), (1 - 2 * NU) * (1 + NU)),
                               ("plane stress", 1, 1 - NU), ("axisymmetric", 1, 1 - 2 * NU)]:
     results = runner.simulate(PLATE, {**pulled, **section(model)[0], "Output/Frames": "every", "Output/Every": 1})
-    file = results.folder / "solution" / "frame_0001.vtu"
-    runner.check(set(vtu.field(file, "types")) == {5}, "not all cells are triangles")
-    for value in vtu.field(file, "von_mises_stress"):
+    frame = vtu.Frame(results.folder / "solution" / "frame_0001.vtu")
+    runner.check(set(frame.types) == {5}, "not all cells are triangles")
+    for value in frame.of_cells["von_mises_stress"]:
         near(value, stress * LOAD, 1e-5, f"{model}: von Mises stress")
-    for value in vtu.field(file, "volume_ratio"):
+    for value in frame.of_cells["volume_ratio"]:
         near(value - 1, volume * LOAD / E, 0.02, f"{model}: volume ratio")
 turned = {**free, "Start/Rotation": "0, 0, 100", "Corotation/Rotation": "polar", "Output/Frames": "every", "Time/Steps": 1}
-for value in vtu.field(runner.simulate(PLATE, turned).folder / "solution" / "frame_0000.vtu", "rotation_angle"):
+frame = vtu.Frame(runner.simulate(PLATE, turned).folder / "solution" / "frame_0000.vtu")
+for value in frame.of_cells["rotation_angle"]:
     near(value, 100, 1e-5, "rotation angle")
+
+# The volume ratio knows how thin a plate in plane stress has become, as the same bar in three dimensions does.
+for load, strains in [("pulled", (1, -NU, -NU)), ("pressed", (1 - NU, 1 - NU, -2 * NU))]:
+    results = runner.simulate(PLATE, {"Plane/Model": "plane stress", "Output/Frames": "every",
+                                      **(pulled if load == "pulled" else pressed)})
+    last = results.history()[-1]
+    ratio = math.prod(1 + (1 if load == "pulled" else -1) * strain * LOAD / E for strain in strains)
+    near(last["min_volume_ratio"] - 1, ratio - 1, 1e-7, f"the least volume ratio, {load}")
+    near(last["max_volume_ratio"] - 1, ratio - 1, 1e-7, f"the largest volume ratio, {load}")

@@ -63,3 +63,18 @@ for settings, told, silent in [
                                             **settings}).summary()["warnings"]
     text = " ".join(warnings)
     runner.check(all(word in text for word in told) and silent not in text, f"{settings}: {warnings}")
+
+# What is set in vain, and a body of which nothing is left to move.
+for settings, words in [({"Motion/Displacement": "0; 0; 1"}, "Motion/Of, which says what moves, is empty"),
+                        ({"Motion 3/Displacement": "0; 0; 1"}, "Motion 3/Of"),
+                        ({"Output/Every": 3}, "Output/Frames is not every"), ({"Output/Interval": 3}, "Output/Frames is not interval"),
+                        ({"Loads/Traction on": 1}, "Loads/Traction is 0"), ({"Loads/Pressure on": 1}, "Loads/Pressure is 0"),
+                        ({"Loads/Nodal force on": "vertex 1"}, "Loads/Nodal force is 0"), ({"Mesh/File": "a.msh"}, "Mesh/Shape is not file"),
+                        ({"Time/Longest step": 1}, "Time/Variable steps is false"), ({"Start/Rotation center": "1, 0, 0"}, "Start/Rotation is 0"),
+                        ({"Material/Lame mu": 3}, "Young's modulus"), ({"Probes/Profile every": 3}, "Probes/Profiles names none"),
+                        ({"Constraints/Clamped region": "x > -1", "Start/Velocity": "0; 0; 0"}, "All vertices"),
+                        ({"Motion/Of": "all", "Constraints/Clamped boundaries": "", "Motion/Displacement": "0; 0; t"}, "All vertices"),
+                        ({"Output/Every": 3, "Output/Frames": "every"}, ""), ({"Output/Every": 1}, ""), ({}, "")]:
+    warnings = [text for text in runner.simulate(runner.BAR, {"Time/Steps": 1, **settings}).summary()["warnings"]
+                if "it has no effect" in text or "All vertices" in text]
+    runner.check(len(warnings) == bool(words) and all(words in text for text in warnings), f"{settings}: {warnings}")

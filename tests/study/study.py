@@ -147,8 +147,8 @@ runner.check([row["verdict"] for row in rows] == verdicts, f"{rows}")
 words = (folder / "conditions-1" / "study.md").read_text()
 runner.check(words.count("They depend on the axes") == 3 and "command line" not in words, words)
 rows = study("unmoved", Scene=runner.BAR, Overrides="Time/Steps = 1", Columns="sag: first n28.uz", Repeats=0,
-             Cases="lonely []: above_sag == 0", arguments=["--set", "Time/Steps=2"])
-runner.check([row["verdict"] for row in rows] == ["wrong"] and rows[0]["steps"] == "2", f"{rows}")
+             Cases="lonely []: above_sag == 0; fine []: sag < 1", arguments=["--set", "Time/Steps=2"])
+runner.check([row["verdict"] for row in rows] == ["wrong", "right"] and rows[0]["steps"] == "2", f"{rows}")
 runner.check("Set on the command line: `Time/Steps=2`" in (folder / "unmoved-1" / "study.md").read_text(), "the command line")
 
 # A check builds all and writes nothing.
@@ -271,3 +271,14 @@ runner.check(len(table(folder / "long")) == 2 and (folder / "long" / "study.md")
 status, _, error = runner.run(write("lost", **{**right, "Reference": f"esdirk4 [{late}]: step 0.07", "Overrides": "Time/Retries=0"}),
                               "--output", folder / "lost")
 runner.check(status == 2 and "The reference" in error and "failed" in error, error)
+
+# A study of which no run is done and right has failed; its table is complete.
+for name, cases, words in [("all failed", "a [Loads/Gravity=1e308,0,0]; b [Loads/Gravity=0,1e308,0]", "None of the 2 runs"),
+                           ("all refused", "a [Mesh/Box size=1, 1]", "refused"), ("one is done", "a [Loads/Gravity=1e308,0,0]; b", "")]:
+    path = write(name.replace(" ", "-"), Scene=runner.BAR, Repeats=0, Overrides="Time/Steps=4", Cases=cases, Columns="w: n28.uz")
+    status, _, error = runner.run(path, "--output", folder / name)
+    runner.check(status == (2 if words else 0) and words in error, f"{name}: {status} {error}")
+    runner.check(len(table(folder / name)) == cases.count(";") + 1, f"{name}: rows")
+path = write("all-wrong", Scene=runner.BAR, Repeats=0, Overrides="Time/Steps=4", Cases="a; b", Columns="w: n28.uz", Right_if="w > 1000")
+status, _, error = runner.run(path, "--output", folder / "all-wrong")
+runner.check(status == 2 and "done and right" in error and "wrong" in error, f"{status} {error}")

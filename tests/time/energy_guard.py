@@ -2,6 +2,7 @@
 
 import pathlib
 import sys
+import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import runner
@@ -47,3 +48,21 @@ runner.check(summary["extremes"]["energy_rises"] == 0 and summary["rejected_step
 status, _, error = runner.run("--check", runner.BAR, *runner.overrides(
     {"Time/Energy guard": "reject", "Time/Method": "ida"}))
 runner.check(status == 1 and "only fixed steps can be done again" in error, error)
+
+# Energy from nowhere in one step, which damping takes away again until the end, is told; and after a restart too.
+folder = pathlib.Path(tempfile.mkdtemp(prefix="supple-"))
+pressed = {"Mesh/Box size": "0.05, 0.02, 0.005", "Mesh/Box cubes": "10, 4, 1", "Material/Young modulus": 1e7, "Material/Poisson ratio": 0.4,
+           "Start/Velocity": "0; 0; 0", "Loads/Gravity": "0, 0, 0", "Constraints/Clamped boundaries": 0, "Loads/Pressure on": 5,
+           "Probes/Points": "", "Probes/Boundaries": "", "Output/Frames": "none", "Time/Step": 0.05, "Time/Steps": 4, "Checkpoint/Every": 2}
+for pressure, told in [(1e4, "it is not to be trusted"), (3e3, "")]:
+    entries = {**pressed, "Loads/Pressure": f"{pressure}*min(t/0.05, 1)"}
+    for more in [{}, {"Time/Steps": 6, "Checkpoint/Resume": "auto"}]:
+        status, _, error = runner.run(runner.BAR, "--quiet", "--output", folder / f"{pressure}", *runner.overrides({**entries, **more}))
+        runner.check(status == 0, error)
+        results = runner.Results(folder / f"{pressure}")
+        warnings = [text for text in results.summary()["warnings"] if "The time stepping added" in text]
+        runner.check(bool(warnings) == bool(told) and all(told in text for text in warnings), f"{pressure} Pa: {warnings}")
+        rows = results.history()
+        gained = max(max(row["dissipated"] for row in rows[:i + 1]) - rows[i]["dissipated"] for i in range(len(rows)))
+        found = results.summary()["extremes"]["energy_gained"]
+        runner.check(abs(found - gained) <= 1e-9 * rows[-1]["elastic"], f"{pressure} Pa: {found} J instead of {gained} J")

@@ -25,6 +25,18 @@ namespace Supple
   write_whole_file(const std::string &file, const std::string &content);
 
 
+  /** As write_whole_file(); and the file is on the disk before it is renamed, so that a loss of
+   * power leaves the old one or the new one. Takes some milliseconds. @throws WriteError */
+  void
+  write_durable_file(const std::string &file, const std::string &content);
+
+
+  /** Has the system write to the disk what it still keeps of the files in a folder and in its
+   * subfolder of this name. */
+  void
+  sync_folder(const std::string &folder, const std::string &subfolder);
+
+
   /**
    * Removes the files of these names that are there.
    * @param names relative to the folder; the last part of a path may have one *, which stands for

@@ -3,10 +3,15 @@
 
 #include <mpi.h>
 
+#include <array>
+
 namespace Supple
 {
-  /** While it lives, Ctrl-C (SIGINT) and SIGTERM are noted and do not end the program. One may live
-   * within another. */
+  /**
+   * While it lives, Ctrl-C (SIGINT), SIGTERM, the end of the terminal (SIGHUP) and that of the time
+   * that the system allows (SIGXCPU) are noted and do not end the program. SIGHUP stays ignored
+   * where it was, as under nohup. One may live within another.
+   */
   class InterruptGuard
   {
   public:
@@ -24,7 +29,7 @@ namespace Supple
   private:
     using Handler = void (*)(int);
 
-    const Handler outer_interrupt, outer_termination;
+    std::array<Handler, 4> outer; ///< what was done before with each signal
   };
 } // namespace Supple
 

@@ -133,18 +133,13 @@ namespace Supple
                 const double *w,
                 double *y) const;
 
-    /** A += mass M - velocity df/dv - displacement df/du, but for patches. */
+    /** A += mass M - velocity df/dv - displacement df/du, but for patches.
+     * @param added_bulk this many shear moduli are added to the bulk modulus of the cells */
     void
     add_tangent(const Configuration &configuration,
                 const TangentFactors &factors,
-                SymmetricBlockMatrix &A) const;
-
-    /** The same with cells that resist to a change of volume by @p added_bulk shear moduli more. */
-    void
-    add_bounded_tangent(const Configuration &configuration,
-                        const TangentFactors &factors,
-                        SymmetricBlockMatrix &A,
-                        double added_bulk) const;
+                SymmetricBlockMatrix &A,
+                double added_bulk) const;
 
     /** What round-off leaves of forces in balance [N]; collective. */
     double

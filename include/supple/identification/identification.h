@@ -1,9 +1,12 @@
 #ifndef supple_identification_h
 #define supple_identification_h
 
+#include <supple/base/folder_lock.h>
 #include <supple/identification/identification_fit.h>
 #include <supple/identification/identification_table.h>
 #include <supple/identification/layered_model.h>
+
+#include <memory>
 
 namespace Supple
 {
@@ -38,7 +41,7 @@ namespace Supple
 
   private:
     void
-    open_output() const;
+    open_output();
 
     /** All pairs, thickness in the outer loop. */
     void
@@ -65,6 +68,7 @@ namespace Supple
 
     const IdentificationParameters parameters;
     const std::string folder;
+    std::unique_ptr<const FolderLock> lock; ///< of the folder, on the first process
     const MPI_Comm communicator;
     const bool root;
     const bool talks;

@@ -36,6 +36,11 @@ namespace Supple
   };
 
 
+  /** @throws InputError if two of these, which come from the same place, set one entry */
+  void
+  require_single(const std::vector<Override> &overrides);
+
+
   /** A message as it goes to the screen: the middle of lines with more than a thousand characters
    * is left out, and what is no character of a text, such as the commands of a terminal, becomes
    * '?'.

@@ -169,6 +169,21 @@ namespace Supple
                   [&](const unsigned int thread) { for_chunk(2 * thread + parity, action); });
     }
 
+    /** Calls add(batch, sum) for all batches, on several threads: a sum for each chunk, which
+     * begins as @p zero. The chunks do not depend on who does them, and neither do the digits. */
+    template <class Sum, class Add>
+    std::vector<Sum>
+    sums_of_chunks(const Sum &zero, const Add &add) const
+    {
+      std::vector<Sum> sums(chunk_start.size() - 1, zero);
+      run_tasks(sums.size(), [&](const unsigned int chunk) {
+        Sum sum = zero; // apart from those of other threads
+        for_chunk(chunk, [&](const std::size_t b) { add(b, sum); });
+        sums[chunk] = sum;
+      });
+      return sums;
+    }
+
     /** The first batch of each chunk, and their number in the end. */
     const std::vector<std::size_t> &
     chunk_starts() const

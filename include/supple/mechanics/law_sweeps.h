@@ -218,6 +218,10 @@ namespace Supple
       return rotations.empty() ? Matrix3<Pack>::identity() : rotations[b];
     }
 
+    /** Of the cells of a batch, with the thinning of a body in plane stress. */
+    Pack
+    volume_ratio(std::size_t b, const Matrix3<Pack> &R, const Matrix3<Pack> &F) const;
+
     Cells::NodalPack
     rotated_gradients(const CellRotations &rotations, const std::size_t b) const
     {
@@ -394,33 +398,56 @@ namespace Supple
   }
 
 
+  /** In plane stress 2 mu e33 + lambda (e11 + e22 + e33) = 0 says how thin the body has become.
+   * With the lambda of effective() e33 is the stress that plane strain would have along z, over -2
+   * mu. */
+  template <class Formulas>
+  Pack
+  LawSweeps<Formulas>::volume_ratio(const std::size_t b,
+                                    const Matrix3<Pack> &R,
+                                    const Matrix3<Pack> &F) const
+  {
+    const Pack ratio = determinant(F);
+    if (cells.section.geometry != Geometry::plane_stress)
+      return ratio;
+    const Cells::Batch &batch = cells.batch(b);
+    return ratio * (1. - formulas.stress(batch, R, F)(2, 2) / (2. * batch.mu));
+  }
+
+
   template <class Formulas>
   Deformation
   LawSweeps<Formulas>::deformation(const CellRotations &rotations, const double *displacement) const
   {
     namespace stdx = std::experimental;
 
+    struct Sum
+    {
+      Pack elastic, inverted, smallest, largest;
+    };
     Deformation result;
-    Pack elastic(0.), inverted(0.);
-    Pack smallest(result.min_volume_ratio), largest(result.max_volume_ratio);
-    for (std::size_t b = 0; b < cells.n_batches(); ++b)
+    const auto add = [&](const std::size_t b, Sum &sum) {
+      ask_for_next(rotations.current, b);
+      const Cells::Batch &batch = cells.batch(b);
+      const Matrix3<Pack> F     = cells.deformation_gradient(b, displacement);
+      sum.elastic += batch.owned * batch.volume *
+                     formulas.energy_density(batch, rotation_of(rotations.current, b), F);
+
+      const Pack ratio   = volume_ratio(b, rotation_of(rotations.current, b), F);
+      const auto counted = batch.owned > 0.;
+
+      stdx::where(counted && ratio < sum.smallest, sum.smallest) = ratio;
+      stdx::where(counted && ratio > sum.largest, sum.largest)   = ratio;
+      stdx::where(counted && !(determinant(F) > 0.), sum.inverted) += 1.;
+    };
+    const Sum zero{0., 0., result.min_volume_ratio, result.max_volume_ratio};
+    for (const Sum &sum : cells.sums_of_chunks(zero, add))
       {
-        const Cells::Batch &batch = cells.batch(b);
-        const Matrix3<Pack> F     = cells.deformation_gradient(b, displacement);
-        elastic += batch.owned * batch.volume *
-                   formulas.energy_density(batch, rotation_of(rotations.current, b), F);
-
-        const Pack ratio   = determinant(F);
-        const auto counted = batch.owned > 0.;
-
-        stdx::where(counted && ratio < smallest, smallest) = ratio;
-        stdx::where(counted && ratio > largest, largest)   = ratio;
-        stdx::where(counted && !(ratio > 0.), inverted) += 1.;
+        result.elastic += stdx::reduce(sum.elastic);
+        result.min_volume_ratio = std::min(result.min_volume_ratio, stdx::hmin(sum.smallest));
+        result.max_volume_ratio = std::max(result.max_volume_ratio, stdx::hmax(sum.largest));
+        result.inverted += static_cast<unsigned int>(stdx::reduce(sum.inverted));
       }
-    result.elastic          = stdx::reduce(elastic);
-    result.min_volume_ratio = stdx::hmin(smallest);
-    result.max_volume_ratio = stdx::hmax(largest);
-    result.inverted         = static_cast<unsigned int>(stdx::reduce(inverted));
     return result;
   }
 
@@ -432,26 +459,26 @@ namespace Supple
     namespace stdx = std::experimental;
 
     std::vector<CellState> states(cells.n_cells);
-    for (std::size_t b = 0; b < cells.n_batches(); ++b)
-      {
-        const Matrix3<Pack> F = cells.deformation_gradient(b, displacement);
-        const Matrix3<Pack> R = rotation_of(rotations.current, b);
+    cells.for_batches([&](const std::size_t b) {
+      ask_for_next(rotations.current, b);
+      const Matrix3<Pack> F = cells.deformation_gradient(b, displacement);
+      const Matrix3<Pack> R = rotation_of(rotations.current, b);
 
-        Matrix3<Pack> deviator = formulas.stress(cells.batch(b), R, F);
-        if (cells.section.geometry == Geometry::plane_stress)
-          deviator(2, 2) = 0.;
-        const Pack mean = trace(deviator) / 3.;
-        for (unsigned int i = 0; i < 3; ++i)
-          deviator(i, i) -= mean;
+      Matrix3<Pack> deviator = formulas.stress(cells.batch(b), R, F);
+      if (cells.section.geometry == Geometry::plane_stress)
+        deviator(2, 2) = 0.;
+      const Pack mean = trace(deviator) / 3.;
+      for (unsigned int i = 0; i < 3; ++i)
+        deviator(i, i) -= mean;
 
-        const Pack von_mises = stdx::sqrt(1.5 * norm_square(deviator));
-        const Pack ratio     = determinant(F);
-        const Pack cosine    = 0.5 * (trace(R) - 1.);
-        cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
-          const double c = std::min(1., std::max(-1., double(cosine[lane])));
-          states[cell]   = {ratio[lane], von_mises[lane], std::acos(c) * 180. / M_PI, -mean[lane]};
-        });
-      }
+      const Pack von_mises = stdx::sqrt(1.5 * norm_square(deviator));
+      const Pack ratio     = volume_ratio(b, R, F);
+      const Pack cosine    = 0.5 * (trace(R) - 1.);
+      cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
+        const double c = std::min(1., std::max(-1., double(cosine[lane])));
+        states[cell]   = {ratio[lane], von_mises[lane], std::acos(c) * 180. / M_PI, -mean[lane]};
+      });
+    });
     return states;
   }
 } // namespace Supple

@@ -59,12 +59,13 @@ namespace Supple
     const Forces &forces;
     const bool stationary;
     Extremes worst;
-    double largest_energy = 0.;
-    bool first            = true;
-    double elastic        = 0.;
-    double total          = 0.;
-    double dissipated     = 0.;
-    double work           = 0.;
+    double largest_energy  = 0.;
+    bool first             = true;
+    double elastic         = 0.;
+    double total           = 0.;
+    double dissipated      = 0.;
+    double most_dissipated = 0.; ///< so far
+    double work            = 0.;
   };
 } // namespace Supple
 

@@ -49,9 +49,11 @@ namespace Supple
   /** The worst of a run. */
   struct Extremes
   {
-    unsigned int energy_rises  = 0;  ///< steps in which the total energy rose by more than the work
-    double energy_risen        = 0.; ///< in these steps together [J]
-    unsigned int most_inverted = 0;  ///< cells
+    unsigned int energy_rises = 0;  ///< steps in which the total energy rose by more than the work
+    double energy_risen       = 0.; ///< in these steps together [J]
+    double energy_gained = 0.; ///< the largest fall of `dissipated` from what it was before [J]
+    double motion_energy = 0.; ///< the largest sum of kinetic and elastic energy [J]
+    unsigned int most_inverted = 0; ///< cells
     double min_volume_ratio    = 1.;
     double max_volume_ratio    = 1.;
     unsigned int not_finite    = 0; ///< measurements that are not finite: a run ends at the first

@@ -9,7 +9,7 @@
 
 namespace Supple
 {
-  /** What files show of the cells, as numbers of 32 bits by LocalCell::index. */
+  /** What files show of the state of the cells, as numbers of 32 bits by LocalCell::index. */
   struct CellFields
   {
     CellFields(const Configuration &configuration, const ElasticForce &elastic);
@@ -19,13 +19,12 @@ namespace Supple
     finite() const;
 
     /** The fields with their names in the files. */
-    std::array<std::pair<const char *, const std::vector<float> *>, 5>
+    std::array<std::pair<const char *, const std::vector<float> *>, 4>
     named() const;
 
     std::vector<float> volume_ratio;
     std::vector<float> von_mises_stress; ///< [Pa]
     std::vector<float> rotation_angle;
-    std::vector<float> material; ///< id
     std::vector<float> pressure; ///< [Pa]
   };
 } // namespace Supple

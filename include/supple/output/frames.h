@@ -84,6 +84,10 @@ namespace Supple
     const CellFields &
     fields(unsigned int step);
 
+    /** What names the frames with their times: solution.pvd. */
+    std::string
+    collection() const;
+
     /** Writes the files of this frame. */
     void
     draw_state(const Measurement &now, const std::string &name);
@@ -96,6 +100,7 @@ namespace Supple
     const Body &body;
     const OutputParameters &parameters;
     const std::string folder;
+    const Vtu vtu;
     std::unique_ptr<Film> film;
     std::vector<std::pair<double, std::string>> records; ///< time and file of each frame
     Measurement last;                                    ///< when the last frame was written

@@ -3,6 +3,7 @@
 
 #include <supple/mesh/distributed_mesh.h>
 #include <supple/output/cell_fields.h>
+#include <supple/output/vtu_piece.h>
 
 #include <string>
 #include <utility>
@@ -10,22 +11,46 @@
 
 namespace Supple
 {
-  /** A deformed body as files show it. The vectors have valid ghost values. */
+  /** A moving body at an instant. */
   struct Drawing
   {
     double time;
     unsigned int step;
-    const Vector &positions; ///< of the nodes [m]
     const Vector &displacement;
     const Vector *velocity; ///< null in a static problem
     const CellFields &cells;
   };
 
 
-  /** The files of a drawing: that of this process (VTU), and the record that names those of all
-   * processes, @p names. */
-  std::pair<std::string, std::string>
-  draw(const DistributedMesh &mesh, const Drawing &drawing, const std::vector<std::string> &names);
+  /** Draws a body as VTU files: the deformed cells of each process with displacement and velocity
+   * of their vertices, and the fields of the cells. */
+  class Vtu
+  {
+  public:
+    /** @throws WriteError if there are too many cells on a process */
+    explicit Vtu(const DistributedMesh &mesh);
+
+    /** The file of this process, and the record that names those of all processes, @p names;
+     * collective. */
+    std::pair<std::string, std::string>
+    draw(const Drawing &drawing, const std::vector<std::string> &names) const;
+
+  private:
+    VtuPiece
+    make_piece();
+
+    /** A vector of nodes at the points [its unit]. */
+    std::vector<float>
+    at_points(const Vector &vector) const;
+
+    std::vector<float>
+    of_cells(const std::vector<float> &values) const;
+
+    const DistributedMesh &mesh;
+    std::vector<unsigned int> nodes; ///< of this process's own cells: the points of the file
+    std::vector<unsigned int> cells; ///< their places in values by cell
+    const VtuPiece piece;
+  };
 } // namespace Supple
 
 #endif

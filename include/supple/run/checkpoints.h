@@ -49,6 +49,11 @@ namespace Supple
     void
     interrupted(const Observation &now) override;
 
+    /** @throws InputError on all processes if the run to go on from has come further than this one
+     * is to go: its last rows would be lost */
+    void
+    require_later_end() const;
+
   private:
     /** @throws InputError, nlohmann::json::exception if something is missing */
     void

@@ -16,7 +16,6 @@ namespace Supple
     Measurement now; ///< of the present state; step and time alone if nobody asks for energies
     double error_estimate = 0.; ///< sum of the local errors [m]
     double largest_motion = 0.; ///< of a vertex from its place at the start, so far [m]
-    double largest_energy = 0.; ///< kinetic and elastic, so far [J]
 
     /** The checkpoint from which the run goes on, such as "step 20 of checkpoint.cbor"; empty if
      * there is none. */

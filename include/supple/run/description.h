@@ -5,6 +5,7 @@
 #include <supple/observe/probes.h>
 #include <supple/run/course.h>
 #include <supple/run/problem.h>
+#include <supple/run/skipped_pulses.h>
 #include <supple/run/summary.h>
 #include <supple/time/time_integrator.h>
 
@@ -21,7 +22,8 @@ namespace Supple
                 const TimeIntegrator &integrator,
                 const Probes &probes,
                 const Diagnostics &diagnostics,
-                const Course &course);
+                const Course &course,
+                const SkippedPulses &pulses);
 
     /** Prints what is run, as a table. @param in_detail with what was found in the mesh */
     void
@@ -64,6 +66,7 @@ namespace Supple
     const Probes &probes;
     const Diagnostics &diagnostics;
     const Course &course;
+    const SkippedPulses &pulses;
   };
 
 

@@ -10,7 +10,8 @@
 
 namespace Supple
 {
-  /** Interrupts a run at the step in which Ctrl-C or SIGTERM reach it. */
+  /** Interrupts a run at the step in which Ctrl-C, SIGTERM or the end of the terminal
+   * (SIGHUP) reach it. */
   class Interruption : public Listener
   {
   public:

@@ -1,6 +1,7 @@
 #ifndef supple_results_h
 #define supple_results_h
 
+#include <supple/base/folder_lock.h>
 #include <supple/run/summary.h>
 #include <supple/run/writers.h>
 #include <supple/scene/parameters.h>
@@ -39,13 +40,18 @@ namespace Supple
       return added;
     }
 
+    /** Keeps other runs out of the folder, if it is there; collective. @throws InputError on all
+     * processes if another run is in it */
+    void
+    lock_folder();
+
     /**
-     * Makes the folder ready; collective.
+     * Makes the folder ready, and locks it; collective.
      * @param resumed whether the files of an earlier run are gone on with, after @p step
      * @throws InputError on all processes if that can't be done
      */
     void
-    open(bool resumed, unsigned int step) const;
+    open(bool resumed, unsigned int step);
 
     /** Writes summary.json, and the report if one is wanted. @param film of the report, or null
      * @throws WriteError on the first process */
@@ -71,6 +77,7 @@ namespace Supple
     const bool writes_report;
     std::vector<std::string> own_files;
     std::vector<std::unique_ptr<Writer>> writers;
+    std::unique_ptr<const FolderLock> lock; ///< on the first process, once the folder is there
   };
 } // namespace Supple
 

@@ -12,6 +12,7 @@
 #include <supple/run/listener.h>
 #include <supple/run/problem.h>
 #include <supple/run/results.h>
+#include <supple/run/skipped_pulses.h>
 #include <supple/run/step_doubling.h>
 #include <supple/run/summary.h>
 #include <supple/run/writers.h>
@@ -150,6 +151,7 @@ namespace Supple
     const std::unique_ptr<TimeIntegrator> integrator;
     Diagnostics diagnostics;
     const std::unique_ptr<StepDoubling> second_run; ///< if the scene asks for it
+    SkippedPulses pulses;
     const Vector start_displacement;
 
     Results results;

@@ -42,8 +42,35 @@ namespace Supple
   };
 
 
-  /** A row for each state in history.csv: energies, momenta, volumes, iterations. */
-  class HistoryTable : public Writer
+  /** A table with a row for each state, the start included. */
+  class StateTable : public Writer
+  {
+  public:
+    void
+    open(bool resumed, unsigned int step) override;
+
+    bool
+    after_step(const Observation &now) override;
+
+  protected:
+    /** @param name of the file */
+    StateTable(const std::string &folder,
+               Effort &effort,
+               const std::string &name,
+               const std::vector<std::string> &columns);
+
+  private:
+    virtual std::vector<double>
+    row(const Observation &now) const = 0;
+
+    const std::string file;
+    const std::vector<std::string> columns;
+    std::unique_ptr<CsvFile> table; ///< on the first process
+  };
+
+
+  /** history.csv: energies, momenta, volumes, iterations. */
+  class HistoryTable : public StateTable
   {
   public:
     HistoryTable(const std::string &folder, Effort &effort);
@@ -51,19 +78,14 @@ namespace Supple
     static std::vector<std::string>
     files();
 
-    void
-    open(bool resumed, unsigned int step) override;
-
-    bool
-    after_step(const Observation &now) override;
-
   private:
-    std::unique_ptr<CsvFile> table; ///< on the first process
+    std::vector<double>
+    row(const Observation &now) const override;
   };
 
 
-  /** A row for each state in probes.csv. */
-  class ProbeTable : public Writer
+  /** probes.csv */
+  class ProbeTable : public StateTable
   {
   public:
     ProbeTable(const std::string &folder, Effort &effort, const Probes &probes);
@@ -71,15 +93,9 @@ namespace Supple
     static std::vector<std::string>
     files();
 
-    void
-    open(bool resumed, unsigned int step) override;
-
-    bool
-    after_step(const Observation &now) override;
-
   private:
-    const Probes &probes;
-    std::unique_ptr<CsvFile> table; ///< on the first process
+    std::vector<double>
+    row(const Observation &now) const override;
   };
 
 

@@ -1,12 +1,14 @@
 #ifndef supple_study_h
 #define supple_study_h
 
+#include <supple/base/folder_lock.h>
 #include <supple/study/study_parameters.h>
 #include <supple/study/study_plan.h>
 #include <supple/study/study_quantities.h>
 #include <supple/study/study_runner.h>
 #include <supple/study/study_table.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -49,8 +51,12 @@ namespace Supple
     void
     check_parameters() const;
 
+    /** @throws ComputationError if every run has failed, was refused or is wrong */
     void
-    open_output() const;
+    require_any_right() const;
+
+    void
+    open_output();
 
     /** What the table says of how it came about. */
     void
@@ -75,6 +81,7 @@ namespace Supple
 
     const StudyParameters parameters;
     const std::string folder;
+    std::unique_ptr<const FolderLock> lock; ///< of the folder, on the first process
     const MPI_Comm communicator;
     const bool root;
     const bool talks;

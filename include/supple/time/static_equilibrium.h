@@ -57,10 +57,25 @@ namespace Supple
     void
     find_equilibrium(double load_factor, StepReport &report);
 
+    /** Sets reactions, and the forces that are counted as work, in equilibrium at a load factor.
+     * @param imbalance s f - f_int(u) */
+    void
+    set_forces(const Vector &imbalance, double load_factor);
+
+    /** What loads and reactions do in a step, by the mean of both ends: that at the start when
+     * called first, then that at the end [J]. */
+    double
+    half_work(const Vector &way) const;
+
+    /** The work by which a growing part of the potential raises it, at half the step [J]. */
+    double
+    work_of_growth(double growth);
+
     double force_accuracy = 0.; ///< what round-off leaves of forces in balance [N]
     bool prepared         = false;
-    unsigned int n_done   = 0; ///< load steps
-    Vector residual, correction, free_residual, loads;
+    bool started          = false; ///< forces at the end of the last step are known
+    unsigned int n_done   = 0;     ///< load steps
+    Vector residual, correction, free_residual, loads, working;
   };
 } // namespace Supple
 
