@@ -4,30 +4,78 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <array>
 #include <cctype>
-#include <iostream>
+#include <cmath>
 #include <regex>
-#include <sstream>
 #include <vector>
+
+#include <muParser.h>
 
 namespace Supple
 {
   namespace
   {
-    /** What is wrong, without deal.II's frame around it. */
+    /** "in 'x +', at character 4: ..." for characters counted from 1. */
     std::string
-    reason(const dealii::ExceptionBase &exception)
+    at_character(const std::string &text, const std::size_t place, const std::string &what)
     {
-      std::ostringstream text;
-      exception.print_info(text);
-      std::smatch found;
-      const std::string all = text.str();
-      if (std::regex_search(all, found, std::regex("The parser said:\\s*(.*)")))
-        return found[1] == "Internal error" ? "it can't be read to its end; something is missing."
-                                            : found[1].str();
-      if (std::regex_search(all, found, std::regex("Message:\\s*(.*)")))
-        return found[1];
-      return dealii::Utilities::trim(all);
+      return "in '" + text + "', at character " + std::to_string(place + 1) + ": " + what;
+    }
+
+
+    std::string
+    in_words(const mu::ParserError &error, const std::string &text)
+    {
+      if (text.empty())
+        return "the expression is empty.";
+      if (error.GetCode() == mu::ecINTERNAL_ERROR)
+        return at_character(text, text.size(), "something is missing.");
+      const std::regex position(
+        "( found)?( at)?( expression)?( position [0-9]+| \\(position: [0-9]+\\))?\\.?$");
+      const std::size_t place = error.GetPos() < 0 ? 0 : error.GetPos();
+      return at_character(
+        text,
+        std::min(place, text.size()),
+        std::regex_replace(error.GetMsg(), position, ".", std::regex_constants::format_first_only));
+    }
+
+
+    /** Those of deal.II's FunctionParser that muParser lacks or means otherwise. */
+    void
+    define_functions(mu::Parser &parser)
+    {
+      using Value = mu::value_type;
+      parser.DefineFun(
+        "if", +[](Value condition, Value yes, Value no) { return std::lround(condition) != 0 ? yes : no; });
+      parser.DefineFun(
+        "log", +[](Value x) { return std::log(x); });
+      parser.DefineFun(
+        "pow", +[](Value x, Value y) { return std::pow(x, y); });
+      parser.DefineFun(
+        "int", +[](Value x) { return std::round(x); });
+      parser.DefineFun(
+        "ceil", +[](Value x) { return std::ceil(x); });
+      parser.DefineFun(
+        "floor", +[](Value x) { return std::floor(x); });
+      parser.DefineFun(
+        "cot", +[](Value x) { return 1. / std::tan(x); });
+      parser.DefineFun(
+        "csc", +[](Value x) { return 1. / std::sin(x); });
+      parser.DefineFun(
+        "sec", +[](Value x) { return 1. / std::cos(x); });
+      parser.DefineFun(
+        "erf", +[](Value x) { return std::erf(x); });
+      parser.DefineFun(
+        "erfc", +[](Value x) { return std::erfc(x); });
+      parser.DefineOprt(
+        "|",
+        +[](Value a, Value b) -> Value { return std::lround(a) != 0 || std::lround(b) != 0; },
+        1);
+      parser.DefineOprt(
+        "&",
+        +[](Value a, Value b) -> Value { return std::lround(a) != 0 && std::lround(b) != 0; },
+        2);
     }
 
 
@@ -89,8 +137,7 @@ namespace Supple
       [[noreturn]] void
       throw_hint(const std::size_t place, const std::string &hint) const
       {
-        throw InputError(origin + ": in '" + text + "', at character " + std::to_string(place + 1) +
-                         ": " + hint);
+        throw InputError(origin + ": " + at_character(text, place, hint));
       }
 
       bool
@@ -124,69 +171,70 @@ namespace Supple
       const std::string &origin;
       std::vector<Bracket> brackets = {{false, false}};
     };
-
-
-    /** deal.II prints what muParser says before it throws the same. */
-    class SilentErrors
-    {
-    public:
-      SilentErrors()
-        : original(std::cerr.rdbuf(nullptr))
-      {
-      }
-
-      ~SilentErrors()
-      {
-        std::cerr.rdbuf(original);
-        std::cerr.clear();
-      }
-
-    private:
-      std::streambuf *const original;
-    };
   } // namespace
+
+
+  /** A parser for each component; all of them read the same place and time. */
+  struct Expression::Formulas
+  {
+    std::array<double, 4> place_and_time = {}; ///< x, y, z, t
+    std::vector<mu::Parser> parsers;
+
+    void
+    add(const std::string &text, const std::map<std::string, double> &names)
+    {
+      mu::Parser &parser = parsers.emplace_back();
+      parser.DefineConst("pi", dealii::numbers::PI);
+      for (const auto &[name, value] : names)
+        parser.DefineConst(name, value);
+      for (unsigned int i = 0; i < 4; ++i)
+        parser.DefineVar(std::string(1, "xyzt"[i]), &place_and_time[i]);
+      define_functions(parser);
+      parser.SetExpr(text);
+      parser.Eval(); // muParser reads the text at the first evaluation
+    }
+  };
 
 
   Expression::Expression(const std::string &text,
                          const unsigned int n_components,
                          const std::string &origin,
                          const std::map<std::string, double> &names)
-    : n_components(n_components)
+    : formulas(std::make_unique<Formulas>())
+    , zero(true)
+    , time_dependent(std::regex_search(text, std::regex("\\bt\\b")))
   {
     const auto components = dealii::Utilities::split_string_list(text, ';');
     if (components.size() != n_components)
       throw InputError(origin + ": found " + std::to_string(components.size()) +
                        " expression(s); there must be " + std::to_string(n_components) +
-                       ", set apart by semicolons.");
+                       ", separated by semicolons.");
 
-    zero = true;
     for (const std::string &component : components)
       {
         if (component.empty() && n_components > 1)
           throw InputError(origin + ": one of its expressions is empty; for nothing write 0.");
         Misreadings(component, origin).refuse();
         zero = zero && says_zero(component);
-      }
-    time_dependent = std::regex_search(text, std::regex("\\bt\\b"));
-
-    std::map<std::string, double> constants = names;
-    constants["pi"]                         = dealii::numbers::PI;
-    const SilentErrors silence;
-    try
-      {
-        function = std::make_unique<dealii::FunctionParser<3>>(n_components);
-        function->initialize("x,y,z,t", components, constants, true);
-        for (unsigned int c = 0; c < n_components; ++c)
-          function->value(dealii::Point<3>(), c); // muParser reads the text at the first evaluation
-      }
-    catch (const dealii::ExceptionBase &exception)
-      {
-        throw InputError(
-          origin + ": " + reason(exception) +
-          "\nAn expression uses x, y, z, t, pi, numbers, + - * / ^, comparisons, && ||, "
-          "if(condition, a, b) and functions such as sin, exp, sqrt, min, max.");
+        try
+          {
+            formulas->add(component, names);
+          }
+        catch (const mu::ParserError &error)
+          {
+            throw InputError(
+              origin + ": " + in_words(error, component) +
+              "\nAn expression uses x, y, z, t, pi, numbers, + - * / ^, comparisons, && ||, "
+              "if(condition, a, b) and functions such as sin, exp, sqrt, min, max.");
+          }
       }
   }
+
+
+  Expression::Expression(Expression &&) noexcept = default;
+
+
+  Expression::~Expression() = default;
 
 
   bool
@@ -201,7 +249,7 @@ namespace Supple
                     const double time,
                     const unsigned int component) const
   {
-    function->set_time(time);
-    return function->value(point, component);
+    formulas->place_and_time = {{point[0], point[1], point[2], time}};
+    return formulas->parsers[component].Eval();
   }
 } // namespace Supple

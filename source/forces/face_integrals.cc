@@ -30,13 +30,13 @@ namespace Supple
   Faces
   loaded_faces(const Body &body,
                const bool acts,
-               const std::vector<unsigned int> &boundary_ids,
+               const std::vector<std::string> &boundaries,
                const std::string &load,
                const ParameterFile &scene)
   {
-    if (acts && boundary_ids.empty())
+    if (acts && boundaries.empty())
       throw InputError(scene.origin("Loads/" + load) + ": it acts nowhere; set \"" + load +
                        " on\" to boundary ids.");
-    return Selection(body).boundary_faces(boundary_ids, scene.origin("Loads/" + load + " on"));
+    return Selection(body).boundary_faces(boundaries, scene.origin("Loads/" + load + " on"));
   }
 } // namespace Supple

@@ -151,8 +151,13 @@ namespace Supple
   RangeList
   RangeList::boundary_ids()
   {
-    return {"boundary ids set apart by commas, or nothing",
-            Range::whole_number(0),
+    const Range whole = Range::whole_number(0);
+    const Range id("a boundary id", [=](const std::string &text) {
+      const std::string name = dealii::Utilities::trim(text);
+      return whole.match(name) || std::regex_search(name, std::regex("^[^0-9+.-]"));
+    });
+    return {"boundary ids, or names of groups of the mesh file, set apart by commas, or nothing",
+            id,
             0,
             dealii::Patterns::List::max_int_value};
   }
@@ -190,14 +195,5 @@ namespace Supple
         list.emplace_back(found[1], found[2]);
       }
     return list;
-  }
-
-
-  unsigned int
-  boundary_id(const std::string &text, const std::string &origin)
-  {
-    if (text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
-      throw InputError(origin + ": '" + text + "' is no boundary id.");
-    return std::stoul(text);
   }
 } // namespace Supple

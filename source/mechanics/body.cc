@@ -58,7 +58,8 @@ namespace Supple
   void
   Body::collect_cells(const MaterialParameters &parameters, const ParameterFile &scene)
   {
-    const auto exceptions = parameters.exceptions(scene.origin("Material/By id"));
+    const auto exceptions =
+      parameters.exceptions(scene.origin("Material/By id"), mesh.material_names);
     for (const auto &[id, n_cells] : mesh.materials)
       {
         const auto exception = exceptions.find(id);

@@ -1,12 +1,11 @@
 #include <supple/mechanics/constraints.h>
 
 #include <supple/base/error.h>
+#include <supple/mechanics/free_motions.h>
 #include <supple/mechanics/selection.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
-
-#include <Eigen/Dense>
 
 #include <algorithm>
 #include <sstream>
@@ -48,14 +47,14 @@ namespace Supple
     };
     const std::array<bool, 3> all = {{true, true, true}};
 
-    for (const unsigned int id : parameters.clamped_boundaries)
+    for (const std::string &id : parameters.clamped_boundaries)
       hold(Selection(body).boundary_nodes(id, scene.origin("Constraints/Clamped boundaries")), all);
     if (!parameters.clamped_region.empty())
       hold(Selection(body).region_nodes(parameters.clamped_region,
                                         scene.origin("Constraints/Clamped region")),
            all);
     for (unsigned int i = 0; i < 3; ++i)
-      for (const unsigned int id : parameters.sliding_boundaries[i])
+      for (const std::string &id : parameters.sliding_boundaries[i])
         hold(Selection(body).boundary_nodes(
                id, scene.origin(std::string("Constraints/Boundaries held along ") + "xyz"[i])),
              {{i == 0, i == 1, i == 2}});
@@ -73,6 +72,7 @@ namespace Supple
   {
     // A piece that nothing but its own nature holds is as free as a body can be.
     std::vector<unsigned int> held_in(body.mesh.report.pieces.size()), total(held_in.size());
+    const auto &parts      = body.mesh.report.parts;
     unsigned int n_counted = 0;
     for (unsigned int dof = 0; dof < 3 * body.n_local; ++dof)
       {
@@ -82,7 +82,7 @@ namespace Supple
           continue;
         held_owned.push_back(dof);
         if (!by_nature)
-          held_in[body.mesh.parts->pieces[dof / 3]] = 1;
+          held_in[parts.at(body.mesh.parts->parts[dof / 3]).piece] = 1;
         n_counted += !(body.mesh.section.plane() && dof % 3 == 2);
       }
     n_held = Utilities::MPI::sum(n_counted, body.mesh.communicator);
@@ -90,8 +90,7 @@ namespace Supple
     for (unsigned int piece = 0; piece < total.size(); ++piece)
       if (total[piece] == 0)
         free_pieces.push_back(piece);
-    n_rigid_motions      = body.mesh.section.axisymmetric() ? 1 : body.mesh.section.plane() ? 3 : 6;
-    n_free_rigid_motions = count_free_rigid_motions();
+    products = held_products();
   }
 
 
@@ -120,42 +119,29 @@ namespace Supple
   }
 
 
-  /**
-   * Rank of the map from rigid motions to the displacements of held degrees of freedom, by the 6x6
-   * matrix of its scalar products. Lengths are measured in diameters of the body.
-   */
-  unsigned int
-  Constraints::count_free_rigid_motions() const
+  std::vector<double>
+  Constraints::held_products() const
   {
-    const auto corners    = body.mesh.bounding_box.get_boundary_points();
-    const Point<3> center = body.mesh.bounding_box.center();
-    const double diameter = corners.first.distance(corners.second);
-
-    Eigen::Matrix<double, 6, 6> products = Eigen::Matrix<double, 6, 6>::Zero();
+    std::vector<double> own(36 * body.mesh.report.parts.size()), total(own.size());
     for (const unsigned int dof : held_owned)
       {
-        const unsigned int i = dof % 3, i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-        const Tensor<1, 3> x               = (body.position(dof / 3) - center) / diameter;
-        Eigen::Matrix<double, 6, 1> motion = Eigen::Matrix<double, 6, 1>::Zero();
-        motion[i]                          = 1.;
-        motion[3 + i1]                     = x[i2]; // (w cross x)_i = w_i1 x_i2 - w_i2 x_i1
-        motion[3 + i2]                     = -x[i1];
-        products += motion * motion.transpose();
+        const unsigned int part = body.mesh.parts->parts[dof / 3];
+        if (part >= body.mesh.report.parts.size())
+          continue;
+        const Eigen::Matrix<double, 6, 1> motion =
+          RigidMotions(body.mesh.report.parts[part].box).at(body.position(dof / 3)).row(dof % 3);
+        Eigen::Map<Eigen::Matrix<double, 6, 6>>(&own[36 * static_cast<std::size_t>(part)]) +=
+          motion * motion.transpose();
       }
-    std::vector<double> sum(products.data(), products.data() + 36), total(36);
-    Utilities::MPI::sum(sum, body.mesh.communicator, total);
-    std::copy(total.begin(), total.end(), products.data());
-    if (body.mesh.section.plane()) // along z and out of the plane
-      for (const unsigned int motion : {2, 3, 4})
-        products(motion, motion) += 1.;
-    if (body.mesh.section.axisymmetric()) // away from the axis to one side
-      for (const unsigned int motion : {0, 5})
-        products(motion, motion) += 1.;
+    Utilities::MPI::sum(own, body.mesh.communicator, total);
+    return total;
+  }
 
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(products,
-                                                                            Eigen::EigenvaluesOnly);
-    const double largest = solver.eigenvalues().maxCoeff();
-    return (solver.eigenvalues().array() <= 1e-12 * largest).count();
+
+  std::string
+  Constraints::free_motions_in_words() const
+  {
+    return Supple::free_motions_in_words(body.mesh, products);
   }
 
 

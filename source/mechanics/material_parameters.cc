@@ -32,7 +32,8 @@ namespace Supple
         "Mass per volume of the body at rest.");
     prm.add_parameter("By id",
                       by_id,
-                      "Cells with these material ids are of another material. Unit: none; Pa, "
+                      "Cells with these material ids, or in groups of the mesh file with these "
+                      "names, are of another material. Unit: none; Pa, "
                       "none, kg/m^3. Range: id: Young "
                       "modulus, Poisson ratio, density, set apart by semicolons.",
                       dealii::Patterns::Anything());
@@ -122,7 +123,8 @@ namespace Supple
 
 
   std::map<unsigned int, IsotropicMaterial>
-  MaterialParameters::exceptions(const std::string &origin) const
+  MaterialParameters::exceptions(const std::string &origin,
+                                 const std::map<std::string, unsigned int> &names) const
   {
     std::map<unsigned int, IsotropicMaterial> materials;
     for (const std::string &item : dealii::Utilities::split_string_list(by_id, ';'))
@@ -131,19 +133,28 @@ namespace Supple
           continue;
         std::smatch found;
         std::vector<std::string> numbers;
-        if (std::regex_match(item, found, std::regex("(\\d{1,6})\\s*:(.*)")))
-          numbers = dealii::Utilities::split_string_list(found[2], ',');
+        unsigned int id = 0;
+        if (std::regex_match(item, found, std::regex("([^:]*[^:\\s])\\s*:(.*)")))
+          {
+            const auto name      = names.find(found[1]);
+            const bool is_number = std::regex_match(found[1].str(), std::regex("\\d{1,6}"));
+            if (is_number || name != names.end())
+              numbers = dealii::Utilities::split_string_list(found[2], ',');
+            if (!numbers.empty())
+              id = name != names.end() ? name->second : std::stoul(found[1]);
+          }
         if (numbers.size() != 3 || !Range::between(0, infinity).match(numbers[0]) ||
             !Range::between(-1, 0.5).match(numbers[1]) ||
             !Range::between(0, infinity).match(numbers[2]))
           throw InputError(
             origin + ": '" + item +
             "' is not of the form id: Young modulus, Poisson ratio, density, with a positive "
-            "modulus and density and a ratio greater than -1 and less than 0.5.");
+            "modulus and density and a ratio greater than -1 and less than 0.5. The id may be the "
+            "name of a group of cells of the mesh file.");
         const auto material =
           from_young_poisson(std::stod(numbers[0]), std::stod(numbers[1]), std::stod(numbers[2]));
-        if (!materials.emplace(std::stoul(found[1]), material).second)
-          throw InputError(origin + ": the material id " + found[1].str() + " is given twice.");
+        if (!materials.emplace(id, material).second)
+          throw InputError(origin + ": the material id " + std::to_string(id) + " is given twice.");
       }
     return materials;
   }

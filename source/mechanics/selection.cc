@@ -51,15 +51,13 @@ namespace Supple
 
     if (!argument("boundary").empty())
       {
-        const auto ids = numbers_in(argument("boundary"));
-        for (const double id : ids)
+        for (const std::string &boundary : Utilities::split_string_list(argument("boundary"), ','))
           {
-            const auto more = boundary_nodes(static_cast<unsigned int>(id), origin);
+            const auto more = boundary_nodes(boundary, origin);
             std::transform(
               nodes.begin(), nodes.end(), more.begin(), nodes.begin(), std::logical_or<>());
           }
-        if (!ids.empty())
-          return nodes;
+        return nodes;
       }
 
     auto index       = numbers_in(argument("vertex"));
@@ -147,27 +145,41 @@ namespace Supple
   }
 
 
-  void
-  Selection::require_boundary(const unsigned int boundary_id, const std::string &origin) const
+  unsigned int
+  Selection::boundary_id(const std::string &boundary, const std::string &origin) const
   {
-    if (body.mesh.boundaries.find(boundary_id) == body.mesh.boundaries.end())
-      {
-        std::string known;
-        for (const auto &[id, n_faces] : body.mesh.boundaries)
-          known += (known.empty() ? "" : ", ") + std::to_string(id) + " (" +
-                   std::to_string(n_faces) + " faces)";
-        throw InputError(origin + ": the body has no boundary " + std::to_string(boundary_id) +
-                         ". It has: " + known + ".");
-      }
+    const auto &names = body.mesh.boundary_names;
+    const auto found  = names.find(boundary);
+    const bool is_number =
+      !boundary.empty() && boundary.size() < 10 &&
+      boundary.find_first_not_of("0123456789", boundary[0] == '+') == std::string::npos;
+    const unsigned int id = found != names.end() ? found->second
+                            : is_number          ? std::stoul(boundary)
+                                                 : numbers::invalid_unsigned_int;
+    if (body.mesh.boundaries.count(id) > 0)
+      return id;
+    std::string known;
+    for (const auto &[id, n_faces] : body.mesh.boundaries)
+      known += (known.empty() ? "" : ", ") + std::to_string(id) + " (" + std::to_string(n_faces) +
+               " faces)";
+    for (const auto &[name, id] : names)
+      known += ", " + name + " (boundary " + std::to_string(id) + ")";
+    throw InputError(origin +
+                     (is_number ? ": the body has no boundary " + boundary + ". It has: "
+                                : ": '" + boundary +
+                                    "' is no boundary id, nor the name of a group of the mesh "
+                                    "file. The body has: ") +
+                     known + ".");
   }
 
 
   std::vector<std::array<unsigned int, 3>>
-  Selection::boundary_faces(const std::vector<unsigned int> &boundary_ids,
+  Selection::boundary_faces(const std::vector<std::string> &boundaries,
                             const std::string &origin) const
   {
-    for (const unsigned int id : boundary_ids)
-      require_boundary(id, origin);
+    std::vector<unsigned int> boundary_ids;
+    for (const std::string &boundary : boundaries)
+      boundary_ids.push_back(boundary_id(boundary, origin));
 
     std::vector<std::array<unsigned int, 3>> faces;
     for (const LocalFace &face : body.mesh.parts->faces)
@@ -178,15 +190,15 @@ namespace Supple
 
 
   std::vector<bool>
-  Selection::boundary_nodes(const unsigned int boundary_id, const std::string &origin) const
+  Selection::boundary_nodes(const std::string &boundary, const std::string &origin) const
   {
-    require_boundary(boundary_id, origin);
+    const unsigned int id = boundary_id(boundary, origin);
 
     // A face is seen by the process that owns its cell; its nodes may be owned by another one.
     Vector marked;
     body.initialize(marked);
     for (const LocalFace &face : body.mesh.parts->faces)
-      if (face.owned && face.boundary_id == boundary_id)
+      if (face.owned && face.boundary_id == id)
         for (const unsigned int node : face.nodes)
           marked.local_element(3 * node) = 1.;
     marked.compress(VectorOperation::add);

@@ -152,13 +152,13 @@ namespace Supple
   {
     positions.resize(n_local);
     serial_vertex.resize(n_local);
-    pieces.resize(n_local);
+    parts.resize(n_local);
     for (std::size_t v = 0; v < node_of.size(); ++v)
       {
         for (unsigned int d = 0; d < 3; ++d)
           positions[node_of[v]][d] = part.mesh.vertices[v][d];
         serial_vertex[node_of[v]] = part.serial_vertex[v];
-        pieces[node_of[v]]        = part.mesh.pieces[v];
+        parts[node_of[v]]         = part.mesh.parts[v];
       }
   }
 

@@ -11,6 +11,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
+#include <boost/crc.hpp>
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/string.hpp>
 
@@ -51,6 +52,26 @@ namespace Supple
       for (const unsigned int v : mesh.cell_vertices(cell))
         centroid += mesh.vertices[v][0] / 3.;
       return mesh.volume(cell) * section.thickness_at(centroid);
+    }
+
+
+    /** The same on all machines that read or generate the same mesh. */
+    unsigned int
+    checksum_of(const SerialMesh &mesh)
+    {
+      boost::crc_32_type sum;
+      const auto add = [&](const auto &values) {
+        sum.process_bytes(values.data(), values.size() * sizeof(values[0]));
+      };
+      add(mesh.vertices);
+      add(mesh.cells);
+      add(mesh.materials);
+      for (const auto &face : mesh.boundary)
+        {
+          add(face.vertices);
+          sum.process_bytes(&face.boundary_id, sizeof(face.boundary_id));
+        }
+      return sum.checksum();
     }
 
 
@@ -220,6 +241,9 @@ namespace Supple
       }
     for (const auto &face : mesh.boundary)
       ++boundaries[face.boundary_id];
+    boundary_names = mesh.boundary_names;
+    material_names = mesh.material_names;
+    checksum       = checksum_of(mesh);
   }
 
 
@@ -233,6 +257,9 @@ namespace Supple
     share(bounding_box);
     share(boundaries);
     share(materials);
+    share(boundary_names);
+    share(material_names);
+    share(checksum);
     share(report);
   }
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <sstream>
 
 namespace Supple
@@ -116,7 +118,7 @@ namespace Supple
               MeshReport &report)
     {
       std::map<Face, unsigned int> given;
-      unsigned int inside = 0, twice = 0, strange = 0;
+      std::set<Face> inside, twice, strange; // a face may be there several times
       for (const auto &face : mesh.boundary)
         {
           const Face key   = sorted(face.vertices);
@@ -127,15 +129,15 @@ namespace Supple
                                                 return a.vertices < b;
                                               });
           if (found == faces.end() || found->vertices != key)
-            ++strange;
+            strange.insert(key);
           else if (found + 1 != faces.end() && (found + 1)->vertices == key)
-            ++inside;
+            inside.insert(key);
           else if (!given.emplace(key, face.boundary_id).second && given[key] != face.boundary_id)
-            ++twice;
+            twice.insert(key);
         }
-      const auto warn = [&](const unsigned int n, const std::string &text) {
-        if (n > 0)
-          report.warnings.push_back(std::to_string(n) + " " + text);
+      const auto warn = [&](const std::set<Face> &of, const std::string &text) {
+        if (!of.empty())
+          report.warnings.push_back(std::to_string(of.size()) + " " + text);
       };
       const std::string kind   = mesh.dimension == 3 ? "triangle(s)" : "edge(s)";
       const std::string groups = mesh.dimension == 3 ? "physical surfaces" : "physical curves";
@@ -148,11 +150,13 @@ namespace Supple
 
     /** Sorts out which faces are the boundary and what id each has. */
     void
-    check_faces(SerialMesh &mesh, const std::string &origin, MeshReport &report)
+    check_faces(SerialMesh &mesh,
+                const std::vector<SerialMesh::CellFace> &faces,
+                const std::string &origin,
+                MeshReport &report)
     {
-      const std::vector<SerialMesh::CellFace> faces = mesh.sorted_faces();
-      std::vector<SerialMesh::CellFace> outer       = outer_faces(mesh, faces, origin);
-      const std::map<Face, unsigned int> given      = given_ids(mesh, faces, report);
+      std::vector<SerialMesh::CellFace> outer  = outer_faces(mesh, faces, origin);
+      const std::map<Face, unsigned int> given = given_ids(mesh, faces, report);
 
       std::stable_sort(outer.begin(), outer.end(), [](const auto &a, const auto &b) {
         return a.cell < b.cell;
@@ -167,16 +171,16 @@ namespace Supple
     }
 
 
+    /** Sets n_cells and box of sets of cells; @param set of each cell */
+    template <class Set>
     void
-    measure_pieces(const SerialMesh &mesh, const unsigned int n_pieces, MeshReport &report)
+    measure(const SerialMesh &mesh, const std::vector<unsigned int> &set, std::vector<Set> &sets)
     {
-      report.pieces.resize(n_pieces);
-      std::vector<std::pair<Point<3>, Point<3>>> corners(n_pieces);
+      std::vector<std::pair<Point<3>, Point<3>>> corners(sets.size());
       for (std::size_t c = 0; c < mesh.cells.size(); ++c)
         {
-          const unsigned int piece = mesh.pieces[mesh.cells[c][0]];
-          auto &[low, high]        = corners[piece];
-          if (report.pieces[piece].n_cells++ == 0)
+          auto &[low, high] = corners[set[c]];
+          if (sets[set[c]].n_cells++ == 0)
             low = high = mesh.vertices[mesh.cells[c][0]];
           for (const unsigned int vertex : mesh.cell_vertices(c))
             for (unsigned int d = 0; d < 3; ++d)
@@ -185,40 +189,105 @@ namespace Supple
                 high[d] = std::max(high[d], mesh.vertices[vertex][d]);
               }
         }
-      for (unsigned int piece = 0; piece < n_pieces; ++piece)
-        report.pieces[piece].box = BoundingBox<3>(corners[piece]);
+      for (std::size_t s = 0; s < sets.size(); ++s)
+        sets[s].box = BoundingBox<3>(corners[s]);
     }
 
 
-    void
-    find_pieces(SerialMesh &mesh, MeshReport &report)
+    /** Numbers of things that are joined two by two. */
+    class Union
     {
-      std::vector<unsigned int> root(mesh.vertices.size());
-      std::iota(root.begin(), root.end(), 0u);
-      const auto find = [&](unsigned int v) {
-        while (root[v] != v)
-          v = root[v] = root[root[v]];
-        return v;
-      };
+    public:
+      explicit Union(const std::size_t n)
+        : root(n)
+      {
+        std::iota(root.begin(), root.end(), 0u);
+      }
+
+      unsigned int
+      find(unsigned int i)
+      {
+        while (root[i] != i)
+          i = root[i] = root[root[i]];
+        return i;
+      }
+
+      void
+      join(const unsigned int i, const unsigned int j)
+      {
+        root[find(i)] = find(j);
+      }
+
+    private:
+      std::vector<unsigned int> root;
+    };
+
+
+    /** Sets the pieces, in the order of their first vertices. @return that of each cell */
+    std::vector<unsigned int>
+    find_pieces(const SerialMesh &mesh, MeshReport &report)
+    {
+      Union joined(mesh.vertices.size());
       std::vector<bool> used(mesh.vertices.size());
       for (std::size_t c = 0; c < mesh.cells.size(); ++c)
         for (const unsigned int vertex : mesh.cell_vertices(c))
           {
-            used[vertex]       = true;
-            root[find(vertex)] = find(mesh.cells[c][0]);
+            used[vertex] = true;
+            joined.join(vertex, mesh.cells[c][0]);
           }
-
       std::map<unsigned int, unsigned int> number;
-      mesh.pieces.resize(mesh.vertices.size());
       for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
         if (used[v])
-          mesh.pieces[v] = number.emplace(find(v), number.size()).first->second;
+          number.emplace(joined.find(v), number.size());
         else
           ++report.unused_vertices;
-      for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
-        if (!used[v])
-          mesh.pieces[v] = number.size();
-      measure_pieces(mesh, number.size(), report);
+      std::vector<unsigned int> piece;
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        piece.push_back(number.at(joined.find(mesh.cells[c][0])));
+      report.pieces.resize(number.size());
+      measure(mesh, piece, report.pieces);
+      return piece;
+    }
+
+
+    /** Sets the parts and their joints, and the part of each vertex. */
+    void
+    find_parts(SerialMesh &mesh, const std::vector<SerialMesh::CellFace> &faces, MeshReport &report)
+    {
+      const std::vector<unsigned int> piece = find_pieces(mesh, report);
+      Union joined(mesh.cells.size());
+      for (std::size_t f = 1; f < faces.size(); ++f)
+        if (faces[f].vertices == faces[f - 1].vertices)
+          joined.join(faces[f].cell, faces[f - 1].cell);
+
+      std::map<unsigned int, unsigned int> number;
+      std::vector<unsigned int> part;
+      std::map<unsigned int, std::set<unsigned int>> shared;
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        {
+          part.push_back(number.emplace(joined.find(c), number.size()).first->second);
+          report.parts.resize(number.size());
+          report.parts[part[c]].piece = piece[c];
+        }
+      measure(mesh, part, report.parts);
+
+      mesh.parts.assign(mesh.vertices.size(), nothing);
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        for (const unsigned int v : mesh.cell_vertices(c))
+          if (mesh.parts[v] == nothing)
+            mesh.parts[v] = part[c];
+          else if (mesh.parts[v] != part[c])
+            shared[v].insert(part[c]);
+      for (const auto &[v, others] : shared)
+        {
+          report.joints.push_back({mesh.vertices[v], {mesh.parts[v]}});
+          auto &parts = report.joints.back().parts;
+          parts.insert(parts.end(), others.begin(), others.end());
+        }
+      std::replace(mesh.parts.begin(),
+                   mesh.parts.end(),
+                   nothing,
+                   static_cast<unsigned int>(report.parts.size()));
     }
 
 
@@ -232,7 +301,7 @@ namespace Supple
                           piece.box.get_boundary_points().second));
       std::vector<std::array<long long, 3>> places;
       for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
-        if (mesh.pieces[v] < report.pieces.size())
+        if (mesh.parts[v] < report.parts.size())
           {
             places.emplace_back();
             for (unsigned int d = 0; d < 3; ++d)
@@ -242,6 +311,30 @@ namespace Supple
       for (std::size_t i = 1; i < places.size(); ++i)
         report.double_vertices += places[i] == places[i - 1];
     }
+
+
+    /** Programs that draw use single precision, whatever is in the file. */
+    void
+    warn_of_distance(MeshReport &report)
+    {
+      double far = 0., size = 0.;
+      for (const auto &piece : report.pieces)
+        {
+          const auto &corners = piece.box.get_boundary_points();
+          size                = std::max(size, corners.first.distance(corners.second));
+          far                 = std::max({far, corners.first.norm(), corners.second.norm()});
+        }
+      const double step = far * std::numeric_limits<float>::epsilon();
+      if (step < 1e-3 * size)
+        return;
+      std::ostringstream text;
+      text << "The body is " << far
+           << " m from the origin. In single precision, in which frames are "
+           << "drawn, places there are " << step
+           << " m apart: smaller motions can't be seen. Put the "
+           << "origin near the body.";
+      report.warnings.push_back(text.str());
+    }
   } // namespace
 
 
@@ -250,7 +343,15 @@ namespace Supple
   {
     std::ostringstream text;
     for (unsigned int d = 0; d < dimension; ++d)
-      text << (d == 0 ? "[" : " x [") << box.lower_bound(d) << ", " << box.upper_bound(d) << "]";
+      {
+        // As many digits as show the length of the box, however far from the origin it is.
+        const double low = box.lower_bound(d), high = box.upper_bound(d);
+        const double ratio = std::max(std::abs(low), std::abs(high)) / (high - low);
+        text.precision(ratio > 100. && std::isfinite(ratio)
+                         ? std::min(4 + static_cast<int>(std::ceil(std::log10(ratio))), 17)
+                         : 6);
+        text << (d == 0 ? "[" : " x [") << low << ", " << high << "]";
+      }
     return text.str();
   }
 
@@ -272,11 +373,14 @@ namespace Supple
   check_mesh(SerialMesh &mesh, const std::string &origin)
   {
     MeshReport report;
+    report.warnings = mesh.warnings;
     check_cells(mesh, origin, report);
-    check_faces(mesh, origin, report);
-    find_pieces(mesh, report);
+    const std::vector<SerialMesh::CellFace> faces = mesh.sorted_faces();
+    check_faces(mesh, faces, origin, report);
+    find_parts(mesh, faces, report);
     count_double_vertices(mesh, report);
 
+    warn_of_distance(report);
     const auto warn = [&](const bool wrong, const std::string &text) {
       if (wrong)
         report.warnings.push_back(text);

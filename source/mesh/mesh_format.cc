@@ -101,9 +101,9 @@ namespace Supple
       const std::string head = "# vtk DataFile Version ";
       if (line.rfind(head, 0) != 0)
         throw InputError("this is not a legacy VTK file: such a file begins with '" + head + "'.");
-      if (line.size() > head.size() && line[head.size()] > '4')
+      if (line.size() > head.size() && line[head.size()] > '5')
         throw InputError("this is legacy VTK of version " + line.substr(head.size()) +
-                         "; only versions up to 4.2 are read. " + how_to_convert(file));
+                         "; only versions up to 5.1 are read. " + how_to_convert(file));
     }
   } // namespace
 
@@ -130,6 +130,10 @@ namespace Supple
       throw InputError("the ending " + ending + " is not known. " + read_are);
 
     const std::string line = first_line(file);
+    if (line.rfind("\xEF\xBB\xBF", 0) == 0)
+      throw InputError(
+        "it begins with a byte order mark, three bytes that some editors write. Save "
+        "it without (as UTF-8 without BOM).");
     if (ending == ".msh")
       require_gmsh(line);
     else if (ending == ".vtk")

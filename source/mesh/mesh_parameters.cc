@@ -86,10 +86,11 @@ namespace Supple
         file,
         "none",
         dealii::Patterns::Anything(),
-        "Mesh file (.msh, .vtk, .unv, .mesh, .bdf), relative to the folder of the scene. Physical "
-        "volumes become material ids and physical surfaces boundary ids. A file without "
-        "tetrahedra, but with triangles in the plane z = 0, is a plane body: physical surfaces "
-        "become material ids and physical curves boundary ids.");
+        "Mesh file (.msh, .vtk, .unv, .mesh, .bdf, .nas), relative to the folder of the scene. "
+        "Physical volumes become material ids and physical surfaces boundary ids, as do groups, "
+        "references and properties of other formats; names of groups may stand for their ids in "
+        "other entries. A file without tetrahedra, but with triangles in the plane z = 0, is a "
+        "plane body: physical surfaces become material ids and physical curves boundary ids.");
     add(prm,
         "Scale",
         scale,

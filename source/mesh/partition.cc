@@ -190,7 +190,7 @@ namespace Supple
         for (const unsigned int vertex : part.serial_vertex)
           {
             part.mesh.vertices.push_back(mesh.vertices[vertex]);
-            part.mesh.pieces.push_back(mesh.pieces[vertex]);
+            part.mesh.parts.push_back(mesh.parts[vertex]);
           }
         for (const unsigned int cell : part.serial_cell)
           copy_cell(cell, part);

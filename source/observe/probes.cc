@@ -30,9 +30,7 @@ namespace Supple
 
     const std::string boundaries = scene.origin("Probes/Boundaries");
     for (const auto &[name, text] : named_list(parameters.boundaries, boundaries))
-      add_nodes(name,
-                "boundary " + text,
-                Selection(body).boundary_nodes(boundary_id(text, boundaries), boundaries));
+      add_nodes(name, "boundary " + text, Selection(body).boundary_nodes(text, boundaries));
 
     const std::string regions = scene.origin("Probes/Regions");
     for (const auto &[name, text] : named_list(parameters.regions, regions))

@@ -22,7 +22,7 @@ namespace Supple
     const std::string origin = scene.origin("Probes/Profiles");
     for (const auto &[name, text] : named_list(parameters.profiles, origin))
       {
-        const auto on_boundary = Selection(body).boundary_nodes(boundary_id(text, origin), origin);
+        const auto on_boundary = Selection(body).boundary_nodes(text, origin);
         profiles.push_back({name, {}});
         for (unsigned int node = 0; node < body.n_owned; ++node)
           if (on_boundary[node])

@@ -126,7 +126,8 @@ namespace Supple
           kept << line << '\n';
       }
     kept << body.mesh.n_cells << " cells, " << body.mesh.n_vertices << " vertices in "
-         << body.mesh.extent() << " m\n";
+         << body.mesh.extent() << " m\n"
+         << "vertices, cells and ids of the mesh have the checksum " << body.mesh.checksum << "\n";
     return kept.str();
   }
 

@@ -5,13 +5,10 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <numeric>
-#include <set>
 
 namespace Supple
 {
@@ -36,41 +33,6 @@ namespace Supple
       for (unsigned int i = 0; i < order.size(); ++i)
         place[order[i]] = i;
       return place;
-    }
-
-
-    template <class Value>
-    void
-    append(std::vector<unsigned char> &bytes, const std::vector<Value> &values)
-    {
-      const auto *const begin = reinterpret_cast<const unsigned char *>(values.data());
-      bytes.insert(bytes.end(), begin, begin + values.size() * sizeof(Value));
-    }
-
-
-    template <class Iterator>
-    std::vector<std::uint16_t>
-    in_16_bits(Iterator value, const Iterator end, const std::vector<double> &range)
-    {
-      std::vector<std::uint16_t> bits;
-      const double width = range[1] - range[0];
-      for (; value != end; ++value)
-        bits.push_back(width > 0. ? std::uint16_t(std::lround(
-                                      65535. * std::clamp((*value - range[0]) / width, 0., 1.)))
-                                  : 0);
-      return bits;
-    }
-
-
-    std::vector<std::int16_t>
-    in_16_bits(const std::vector<float> &values, const double largest)
-    {
-      std::vector<std::int16_t> bits;
-      for (const float value : values)
-        bits.push_back(largest > 0.
-                         ? std::int16_t(std::lround(32767. * std::clamp(value / largest, -1., 1.)))
-                         : 0);
-      return bits;
     }
 
 
@@ -277,10 +239,10 @@ namespace Supple
   }
 
 
-  Film::Frame
+  FilmFrame
   Film::read_frame(std::ifstream &stream, const unsigned int number) const
   {
-    Frame frame;
+    FilmFrame frame;
     frame.displacement.resize(rest.size());
     frame.cells.resize(2 * triangles.size());
     stream.seekg(head_size + number * frame_size());
@@ -294,70 +256,35 @@ namespace Supple
   }
 
 
-  Film::Packed
-  Film::pack(const std::size_t limit) const
+  std::vector<FilmFrame>
+  Film::read_frames(const unsigned int n_taken) const
   {
-    Packed packed;
-    packed.n_vertices  = rest.size() / 3;
-    packed.n_triangles = triangles.size();
-    packed.n_written   = n_frames;
-    packed.materials   = [&] {
-      const std::set<unsigned int> ids(materials.begin(), materials.end());
-      return std::vector<unsigned int>(ids.begin(), ids.end());
-    }();
-    std::vector<std::uint16_t> ids(materials.begin(), materials.end());
-    ids.resize((ids.size() + 1) / 2 * 2);
-    append(packed.bytes, rest);
-    append(packed.bytes, triangles);
-    append(packed.bytes, ids);
-
-    const std::size_t size = (rest.size() + 2 * triangles.size()) * sizeof(std::uint16_t);
-    const std::size_t room = limit > packed.bytes.size() ? (limit - packed.bytes.size()) / size : 0;
-    const auto taken =
-      spread(std::min<std::size_t>(n_frames, std::max<std::size_t>(room, 2)), n_frames);
     std::ifstream stream(file, std::ios::binary);
-    std::vector<Frame> frames;
-    for (const unsigned int number : taken)
-      {
-        frames.push_back(read_frame(stream, number));
-        const Frame &frame = frames.back();
-        const auto middle  = frame.cells.begin() + triangles.size();
-        const auto widen   = [](std::vector<double> &range, const auto begin, const auto end) {
-          const auto [low, high] = std::minmax_element(begin, end);
-          range                  = range.empty() ? std::vector<double>{*low, *high}
-                                                   : std::vector<double>{std::min<double>(range[0], *low),
-                                                                       std::max<double>(range[1], *high)};
-        };
-        widen(packed.volume_ratio, frame.cells.begin(), middle);
-        widen(packed.von_mises, middle, frame.cells.end());
-        for (const float u : frame.displacement)
-          packed.largest_displacement = std::max<double>(packed.largest_displacement, std::abs(u));
-      }
-    for (const Frame &frame : frames)
-      {
-        packed.times.push_back(frame.time);
-        packed.steps.push_back(frame.step);
-        const auto middle = frame.cells.begin() + triangles.size();
-        append(packed.bytes, in_16_bits(frame.displacement, packed.largest_displacement));
-        append(packed.bytes, in_16_bits(frame.cells.begin(), middle, packed.volume_ratio));
-        append(packed.bytes, in_16_bits(middle, frame.cells.end(), packed.von_mises));
-      }
-    return packed;
+    std::vector<FilmFrame> frames;
+    for (const unsigned int number : spread(n_taken, n_frames))
+      frames.push_back(read_frame(stream, number));
+    return frames;
   }
 
 
-  nlohmann::ordered_json
-  Film::Packed::description() const
+  PackedFilm
+  Film::pack(const std::size_t limit) const
   {
-    return {{"vertices", n_vertices},
-            {"triangles", n_triangles},
-            {"frames_written", n_written},
-            {"times", times},
-            {"steps", steps},
-            {"largest_displacement", largest_displacement},
-            {"volume_ratio", volume_ratio},
-            {"von_mises_stress", von_mises},
-            {"materials", materials}};
+    constexpr std::size_t largest_ratio = 4; // of plain bytes to packed ones
+    PackedFilm packed(rest, triangles, materials);
+    packed.n_written        = n_frames;
+    const std::size_t begin = packed.bytes.size();
+    const std::size_t room  = limit > begin ? limit - begin : 0;
+    const std::size_t size  = (rest.size() + 2 * triangles.size()) * sizeof(std::uint16_t);
+    for (std::size_t n_taken = std::min<std::size_t>(n_frames, largest_ratio * room / size);;)
+      {
+        n_taken = std::max<std::size_t>(n_taken, std::min(n_frames, 2u));
+        packed.set_frames(read_frames(n_taken));
+        const std::size_t used = packed.bytes.size() - begin;
+        if (used <= room || n_taken <= 2)
+          return packed;
+        n_taken = std::min<std::size_t>(n_taken - 1, 0.98 * n_taken * room / used);
+      }
   }
 
 

@@ -186,9 +186,9 @@ namespace Supple
     std::vector<unsigned char> surface;
     if (film)
       {
-        const Film::Packed packed = film->pack(most_surface_bytes);
-        data["surface"]           = packed.description();
-        surface                   = packed.bytes;
+        const PackedFilm packed = film->pack(most_surface_bytes);
+        data["surface"]         = packed.description();
+        surface                 = packed.bytes;
       }
     write_page(folder, data, surface);
   }

@@ -165,6 +165,15 @@ class Charts {
   }
 }
 
+async function readSurface(data, text) {
+  if (!data.surface?.times.length) return [null, null];
+  try {
+    return [await Surface.read(data.surface, text), null];
+  } catch (error) {
+    return [null, element('p', {class: 'notice warn'}, `This browser can't unpack the motion of the body (${error.message}). The curves are whole.`)];
+  }
+}
+
 function makeStage(surface, up) {
   try {
     return new Stage(surface, up);
@@ -179,10 +188,10 @@ function instants(data, surface) {
   return surface?.times ?? data.tables.history?.columns.time ?? [0];
 }
 
-export function showRun(data, surfaceText, page) {
+export async function showRun(data, surfaceText, page) {
   document.title = `${data.name} – Supple`;
-  const surface = data.surface?.times.length > 0 ? new Surface(data.surface, surfaceText) : null;
-  const stage = surface ? makeStage(surface, data.up) : null;
+  const [surface, problem] = await readSurface(data, surfaceText);
+  const stage = surface ? makeStage(surface, data.up) : problem;
   const charts = new Charts(data, (time) => player.jump(time));
   const player = new Player(instants(data, surface), data.static, (time) => {
     if (stage instanceof Stage) stage.set({time});

@@ -8,25 +8,41 @@ function decode(text) {
   return bytes.buffer;
 }
 
+/** Values of all frames, 16 bits each, from the differences between frames. */
+async function unpack(stream, length) {
+  const bytes = new Uint8Array(await new Response(new Blob([stream]).stream().pipeThrough(new DecompressionStream('deflate'))).arrayBuffer());
+  const values = new Uint16Array(bytes.length / 2);
+  for (let begin = 0; begin < values.length; begin += length)
+    for (let i = 0; i < length; ++i) {
+      const folded = bytes[2 * begin + i] | bytes[2 * begin + length + i] << 8;
+      values[begin + i] = (folded >> 1 ^ -(folded & 1)) + (begin > 0 ? values[begin + i - length] : 0);
+    }
+  return values;
+}
+
 export class Surface {
-  constructor(description, text) {
-    Object.assign(this, description);
+  /** @throws where the browser can't unpack the frames */
+  static async read(description, text) {
     const buffer = decode(text);
-    const vertices = description.vertices, triangles = description.triangles;
-    let at = 0;
-    const take = (Type, n) => {
-      const array = new Type(buffer, at, n);
-      at += n * Type.BYTES_PER_ELEMENT;
-      return array;
-    };
-    this.rest = take(Float32Array, 3 * vertices);
-    this.corners = take(Uint32Array, 3 * triangles);
-    this.materialIds = take(Uint16Array, 2 * Math.ceil(triangles / 2));
-    this.frames = this.times.map(() => ({
-      displacement: take(Int16Array, 3 * vertices),
-      volume_ratio: take(Uint16Array, triangles),
-      von_mises_stress: take(Uint16Array, triangles),
-    }));
+    const {vertices, triangles} = description;
+    const begin = 12 * vertices + 12 * triangles + 4 * Math.ceil(triangles / 2);
+    return new Surface(description, buffer, await unpack(buffer.slice(begin), 3 * vertices + 2 * triangles));
+  }
+
+  constructor(description, buffer, values) {
+    Object.assign(this, description);
+    const {vertices, triangles} = description;
+    this.rest = new Float32Array(buffer, 0, 3 * vertices);
+    this.corners = new Uint32Array(buffer, 12 * vertices, 3 * triangles);
+    this.materialIds = new Uint16Array(buffer, 12 * (vertices + triangles), 2 * Math.ceil(triangles / 2));
+    this.frames = this.times.map((_, number) => {
+      const at = number * (3 * vertices + 2 * triangles);
+      return {
+        displacement: new Int16Array(values.buffer, 2 * at, 3 * vertices),
+        volume_ratio: values.subarray(at + 3 * vertices, at + 3 * vertices + triangles),
+        von_mises_stress: values.subarray(at + 3 * vertices + triangles, at + 3 * vertices + 2 * triangles),
+      };
+    });
     this.range = {volume_ratio: this.volume_ratio, von_mises_stress: this.von_mises_stress};
     this.flat = this.rest.every((value, i) => i % 3 !== 2 || value === 0);
     this.measure();

@@ -83,6 +83,13 @@ namespace Supple
           << report.worst_position << "); 1 is regular, 0 is flat";
     line("boundaries", counts(problem.mesh.boundaries) + "; id (number of faces)");
     line("materials", counts(problem.mesh.materials) + "; id (number of cells)");
+    std::string names;
+    for (const auto &[kind, groups] : {std::make_pair("material", problem.mesh.material_names),
+                                       std::make_pair("boundary", problem.mesh.boundary_names)})
+      for (const auto &[name, id] : groups)
+        names += (names.empty() ? "" : ", ") + name + " (" + kind + " " + std::to_string(id) + ")";
+    if (!names.empty())
+      line("groups", names);
     line("pieces", std::to_string(report.pieces.size()));
     line("worst cell", worst.str());
     line("repaired", std::to_string(report.repaired) + " inverted cells");

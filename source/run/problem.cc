@@ -13,20 +13,6 @@ namespace Supple
 {
   using namespace dealii;
 
-  namespace
-  {
-    /** The rigid motions of the body that are free, in words. */
-    std::string
-    free_rigid_motions(const Constraints &constraints)
-    {
-      if (constraints.n_rigid_motions == 1)
-        return "its one rigid motion, along its axis, is free";
-      return std::to_string(constraints.n_free_rigid_motions) + " of its " +
-             (constraints.n_rigid_motions == 6 ? "six" : "three") + " rigid motions are free";
-    }
-  } // namespace
-
-
   Problem::Problem(const Parameters &scene, const MPI_Comm communicator)
     : parameters(scene)
     , stationary(parameters.time.problem == TimeParameters::Problem::stationary)
@@ -79,11 +65,11 @@ namespace Supple
     const std::string free_pieces = constraints.free_pieces_in_words();
     if (stationary && !free_pieces.empty())
       throw InputError("A static scene needs a body that is held: " + free_pieces);
-    if (stationary && constraints.n_free_rigid_motions > 0)
-      throw InputError(
-        "A static scene needs a body that is held: " + free_rigid_motions(constraints) +
-        ", so that the stiffness is singular. Hold a boundary or a region "
-        "(subsection Constraints), or make the problem dynamic.");
+    const std::string free_motions = constraints.free_motions_in_words();
+    if (stationary && !free_motions.empty())
+      throw InputError("A static scene needs a body that is held: " + free_motions +
+                       ", so that the stiffness is singular. Hold a boundary or a region "
+                       "(subsection Constraints), or make the problem dynamic.");
   }
 
 

@@ -191,8 +191,11 @@ for entry, value, words in [
         ("Mesh/Boundary regions", "7: 0 <= y <= 1", "a < x && x < b"),
         ("Probes/Regions", "end: y = 1", "Equal is =="),
         ("Loads/Body force", ";0;0", "is empty"),
-        ("Loads/Body force", "-;0;0", "can't be read to its end"),
-        ("Loads/Body force", "x y;0;0", 'Unexpected variable "y" found at position 2')]:
+        ("Loads/Body force", "-;0;0", "at character 2: something is missing"),
+        ("Loads/Body force", "x y;0;0", 'at character 3: Unexpected variable "y".'),
+        ("Loads/Gravity", "0; 0; 2*(x + 3", "at character 9: Missing parenthesis"),
+        ("Mesh/Map", "x; y; wide*z", "at character 1: Unexpected token"),
+        ("Constraints/Clamped region", "sin(x, 1) > 0", "Too many parameters")]:
     with_setting(entry, value, words)
 refused([runner.BAR, "--set", "Motion/Of=all", "--set", "Motion/Displacement=0; 0,01*t; 0"], "The decimal sign is a point")
 for entry, value in [("Constraints/Clamped region", "(0.05 < x) && x <= 0.15 || !(y >= 1) == 1"),

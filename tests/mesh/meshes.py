@@ -71,6 +71,10 @@ accepted("pieces.msh", "1 of the 2 pieces is not held anywhere: that of 1 cell i
 status, _, error = check("pieces.msh", "Time/Problem=static", "Constraints/Clamped region=x < 0.1")
 runner.check(status == 1 and "1 of the 2 pieces is not held anywhere: that of 1 cell" in error, error)
 
+# Far from the origin the box around the body is told with the digits that show its size.
+far = [(500000 + 10 * x, 5400000 + 4 * y, 300 + 4 * z) for x, y, z in VERTICES]
+accepted(write("far.msh", vertices=far), "[500000, 500010] x [5400000, 5400004] x [300, 304] m", "from the origin", settings=["Constraints/Clamped region="])
+
 outer, inner = (0, 1, 2), (1, 2, 3)
 accepted(write("surface.msh", surface=[(3, outer), (4, inner)]), "3 (1)", "1 triangle(s) of physical surfaces lie inside")
 accepted(write("twice.msh", surface=[(3, outer), (4, outer)]), "3 (1)", "belong to two physical surfaces")
@@ -102,12 +106,8 @@ write("order.msh", vertices=[(0, 0, 1), (0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 
 for vertex, place in enumerate(["(0, 0, 1)", "(0, 0, 0)", "(1, 0, 0)", "(0, 1, 0)", "(1, 1, 1)"]):
     accepted("order.msh", f"vertex {vertex} at {place}", settings=[f"Probes/Points=a: vertex {vertex}"])
 
-# Binary VTK, which not every version of Gmsh reads.
-binary = runner.ROOT / "tests" / "data" / "meshes" / "legacy-binary.vtk"
-if check(binary)[0] == 0:
-    accepted(binary, "12 tetrahedra, 12 vertices", "[0, 2] x [0, 1] x [0, 1] m")
-else:
-    refused(binary, "Not every version reads binary VTK", "write it as text")
+# Binary VTK.
+accepted(runner.DATA / "meshes" / "legacy-binary.vtk", "12 tetrahedra, 12 vertices", "[0, 2] x [0, 1] x [0, 1] m")
 
 # A text that is no mesh is not run as one of Gmsh's scripts.
 (folder / "script.msh").write_text(f'SystemCall "touch {folder}/was-run";\n')
@@ -123,7 +123,8 @@ for name, words in [("body.stl", ["surface", "no volume"]), ("body.vtu", ["meshi
 for name, content, words in [("empty.msh", "", ["is empty"]), ("no-ending", "x", ["no ending", "Read are .msh"]),
                              ("body.MSH", "x", ["small letters"]), ("body.STL", "x", ["surface"]), ("body.obj", "x", ["surface"]),
                              ("body.ele", "x", ["TetGen", "meshio convert"]), ("old.vtk", "x", ["not a legacy VTK file"]),
-                             ("new.vtk", "# vtk DataFile Version 5.1\nx\nBINARY\n", ["version 5.1", "meshio convert", "new.msh"]),
+                             ("new.vtk", "# vtk DataFile Version 6.0\nx\nBINARY\n", ["version 6.0", "meshio convert", "new.msh"]),
+                             ("mark.msh", "\ufeff$MeshFormat\n2.2 0 8\n", ["byte order mark"]),
                              ("my body.vtu", "x", [f"meshio convert '{folder}/my body.vtu' '{folder}/my body.msh'"])]:
     (folder / name).write_text(content)
     refused(name, *words)
@@ -178,3 +179,6 @@ write("flat.msh", vertices=VERTICES[:3] + [(1, 1, 0), (0, 0, 2)])
 for name, words in [("flat.msh", "are flat"), ("nowhere.msh", "no such file")]:
     status, _, error = runner.run("--check", scene, "--set", f"Mesh/File={name}", ranks=2)
     runner.check(status == 1 and error.count(words) == 1, f"{name} on two processes: exit status {status}: {error}")
+
+# A mesh cut into parts, whose cells at the cuts are told to the other parts too (ghosts), has each cell once.
+accepted(runner.DATA / "meshes" / "ghosts.msh", "368 tetrahedra", settings=["Constraints/Clamped region="])

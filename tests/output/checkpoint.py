@@ -18,6 +18,24 @@ folder = pathlib.Path(tempfile.mkdtemp(prefix="supple-"))
 ALWAYS = {"Solver/Tolerance": 1e-12, "Output/Motion": 0.05, "Checkpoint/Every": 7, "Checkpoint/Resume": "auto"}
 
 
+def mesh_scene(where, materials, inner=0.25, boundary=7):
+    """A scene with a mesh file: a tetrahedron about a vertex inside, cut into four, two of each material."""
+    where.mkdir(exist_ok=True)
+    vertices = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (inner, 0.25, 0.25)]
+    cells = [(5, 2, 3, 4), (1, 5, 3, 4), (1, 2, 5, 4), (1, 2, 3, 5)]
+    elements = [(4, materials[i // 2], *cell) for i, cell in enumerate(cells)] + [(2, boundary, 2, 3, 4)]
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", 5, *[f"{i} {x} {y} {z}" for i, (x, y, z) in enumerate(vertices, 1)]]
+    lines += ["$EndNodes", "$Elements", 5, *[f"{i} {kind} 2 {tag} {tag} {' '.join(map(str, vertices))}"
+                                             for i, (kind, tag, *vertices) in enumerate(elements, 1)], "$EndElements"]
+    (where / "body.msh").write_text("\n".join(map(str, lines)) + "\n")
+    scene = where / "scene.prm"
+    scene.write_text("# a mesh file\nsubsection Mesh\n  set Shape = file\n  set File = body.msh\nend\n"
+                     "subsection Material\n  set By id = 2: 1e7, 0.3, 1000\nend\n"
+                     "subsection Constraints\n  set Clamped region = z < 1e-9\nend\n"
+                     "subsection Loads\n  set Gravity = 0, 0, -10\nend\n")
+    return scene
+
+
 def largest_difference(whole, parts):
     """Of two tables; displacements, velocities and forces of probes are each measured by their largest component."""
     runner.check(len(whole) == len(parts), f"{len(whole)} and {len(parts)} rows")
@@ -140,6 +158,22 @@ good = file.read_bytes()
 status, error = run("polar", {**ALWAYS, "Time/Steps": 60, "Material/Young modulus": 2e8})
 runner.check(status == 1 and "another scene" in error and "Young modulus" in error, error)
 runner.check(file.read_bytes() == good, "the checkpoint was touched")
+
+# The mesh file may have been exchanged: another material of a cell, a vertex that has moved within the body, an id of a face.
+swapped = mesh_scene(folder / "mesh", materials=(1, 2))
+settings = {"Checkpoint/Every": 2, "Checkpoint/Resume": "auto"}
+runs = ["--quiet", "--output", str(folder / "mesh" / "output")]
+status, _, error = runner.run(swapped, *runs, *runner.overrides({**settings, "Time/Steps": 4}))
+runner.check(status == 0, error)
+for what, changes in [("materials", {"materials": (2, 1)}), ("vertices", {"inner": 0.3}), ("ids", {"boundary": 8})]:
+    mesh_scene(folder / "mesh", **{"materials": (1, 2), **changes})
+    status, _, error = runner.run(swapped, *runs, *runner.overrides({**settings, "Time/Steps": 8}))
+    runner.check(status == 1 and "another scene" in error and "checksum" in error, f"{what}: exit status {status}, {error}")
+mesh_scene(folder / "mesh", materials=(1, 2))
+for ranks in (1, 2):
+    status, _, error = runner.run(swapped, *runs, *runner.overrides({**settings, "Time/Steps": 8 * ranks}), ranks=ranks)
+    runner.check(status == 0, error)
+
 file.write_bytes(good[:1000] + b"x" + good[1001:])
 status, error = run("polar", {**ALWAYS, "Time/Steps": 60})
 runner.check(status == 0, f"the one before is whole: {error}")

@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import zlib
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import chromium
@@ -36,15 +37,18 @@ class Page:
         n, m = surface["vertices"], surface["triangles"]
         self.rest = self.triples(struct.unpack_from(f"<{3 * n}f", packed))
         self.triangles = self.triples(struct.unpack_from(f"<{3 * m}I", packed, 12 * n))
-        begin, size = 12 * n + 12 * m + 4 * ((m + 1) // 2), 6 * n + 4 * m
-        runner.check(len(packed) == begin + size * len(surface["times"]), f"{len(packed)} bytes of surface")
+        length = 3 * n + 2 * m
+        begin = 12 * n + 12 * m + 4 * ((m + 1) // 2)
+        unpacked = zlib.decompress(packed[begin:])
+        runner.check(len(unpacked) == 2 * length * len(surface["times"]), f"{len(unpacked)} bytes of frames")
         unit = surface["largest_displacement"] / 32767
-        self.frames = []
-        for frame in range(len(surface["times"])):
-            at = begin + frame * size
-            u = [unit * value for value in struct.unpack_from(f"<{3 * n}h", packed, at)]
-            low, high = surface["volume_ratio"]
-            ratios = [low + (high - low) * value / 65535 for value in struct.unpack_from(f"<{m}H", packed, at + 6 * n)]
+        low, high = surface["volume_ratio"]
+        self.frames, values = [], [0] * length
+        for at in range(0, len(unpacked), 2 * length):
+            folded = [a + 256 * b for a, b in zip(unpacked[at:at + length], unpacked[at + length:at + 2 * length])]
+            values = [(value + (f >> 1 ^ -(f & 1))) % 65536 for value, f in zip(values, folded)]
+            u = [unit * (value - 65536 * (value >= 32768)) for value in values[:3 * n]]
+            ratios = [low + (high - low) * value / 65535 for value in values[3 * n:3 * n + m]]
             self.frames.append((self.triples(u), ratios))
 
     @staticmethod

@@ -1,7 +1,7 @@
 #ifndef supple_expression_h
 #define supple_expression_h
 
-#include <deal.II/base/function_parser.h>
+#include <deal.II/base/point.h>
 
 #include <map>
 #include <memory>
@@ -10,8 +10,10 @@
 namespace Supple
 {
   /**
-   * A muParser expression of x, y, z [m] and t [s], with one or three components set apart by
-   * semicolons. Written wrongly it is refused here and not at its first use.
+   * A muParser expression of x, y, z [m] and t [s], with one or three components separated by
+   * semicolons. Written wrongly it is refused here and not at its first use. To the functions of
+   * muParser it adds those that deal.II's FunctionParser has: if(), log() as ln(), pow(), int(),
+   * ceil(), floor(), cot(), csc(), sec(), erf() and erfc(), and the operators & and |.
    */
   class Expression
   {
@@ -21,13 +23,16 @@ namespace Supple
      * @param n_components 1 or 3
      * @param origin       where it was written, for the message
      * @param names        more numbers that may be used
-     * @throws InputError
+     * @throws InputError with the character at which the text goes wrong
      */
     Expression(const std::string &text,
                unsigned int n_components,
                const std::string &origin,
                const std::map<std::string, double> &names = {});
+    Expression(Expression &&) noexcept;
+    ~Expression();
 
+    /** Not for several threads at once. */
     double
     value(const dealii::Point<3> &point, double time, unsigned int component = 0) const;
 
@@ -49,8 +54,9 @@ namespace Supple
     }
 
   private:
-    std::unique_ptr<dealii::FunctionParser<3>> function;
-    unsigned int n_components;
+    struct Formulas;
+
+    std::unique_ptr<Formulas> formulas;
     bool zero;
     bool time_dependent;
   };

@@ -40,7 +40,7 @@ namespace Supple
   Faces
   loaded_faces(const Body &body,
                bool acts,
-               const std::vector<unsigned int> &boundary_ids,
+               const std::vector<std::string> &boundaries,
                const std::string &load,
                const ParameterFile &scene);
 } // namespace Supple

@@ -16,9 +16,9 @@ namespace Supple
     std::string nodal_force    = "0; 0; 0"; ///< [N]
     std::string nodal_force_on = "all";
     std::string traction       = "0; 0; 0"; ///< [Pa]
-    std::vector<unsigned int> traction_on;
+    std::vector<std::string> traction_on;
     std::string pressure = "0"; ///< [Pa]
-    std::vector<unsigned int> pressure_on;
+    std::vector<std::string> pressure_on;
     bool pressure_follows = true;
 
     void

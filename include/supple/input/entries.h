@@ -68,6 +68,7 @@ namespace Supple
     static RangeList
     three(const Range &range);
 
+    /** Numbers, or names of groups of a mesh file. */
     static RangeList
     boundary_ids();
 
@@ -145,11 +146,6 @@ namespace Supple
    * InputError beginning with @p origin */
   std::vector<std::pair<std::string, std::string>>
   named_list(const std::string &text, const std::string &origin);
-
-
-  /** The boundary id that is the whole of a text. @throws InputError beginning with @p origin */
-  unsigned int
-  boundary_id(const std::string &text, const std::string &origin);
 } // namespace Supple
 
 #endif

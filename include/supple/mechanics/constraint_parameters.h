@@ -14,9 +14,9 @@ namespace Supple
   /** Subsection Constraints: what is held at rest. */
   struct ConstraintParameters
   {
-    std::vector<unsigned int> clamped_boundaries;
+    std::vector<std::string> clamped_boundaries; ///< ids, or names of groups
     std::string clamped_region;
-    std::array<std::vector<unsigned int>, 3> sliding_boundaries; ///< held along x, along y, along z
+    std::array<std::vector<std::string>, 3> sliding_boundaries; ///< held along x, along y, along z
 
     void
     declare(dealii::ParameterHandler &prm);

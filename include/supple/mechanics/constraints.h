@@ -77,11 +77,11 @@ namespace Supple
     std::string
     free_pieces_in_words() const;
 
-    /** Of a body: six, three in the plane, or one along its axis. */
-    unsigned int n_rigid_motions;
-
-    /** How many of them remain possible. */
-    unsigned int n_free_rigid_motions;
+    /** Which rigid motions are possible, of the first piece of the body that has any; empty if
+     * there are none. Parts of a piece that hang together by a vertex or an edge alone move against
+     * each other. */
+    std::string
+    free_motions_in_words() const;
 
   private:
     struct Motion
@@ -108,11 +108,14 @@ namespace Supple
     void
     complete();
 
-    unsigned int
-    count_free_rigid_motions() const;
+    /** For each part of the body, the 6x6 matrix of scalar products of what its rigid motions do to
+     * held degrees of freedom, column by column; collective. */
+    std::vector<double>
+    held_products() const;
 
     std::vector<bool> held;
     std::vector<unsigned int> held_owned;
+    std::vector<double> products; ///< held_products()
   };
 } // namespace Supple
 

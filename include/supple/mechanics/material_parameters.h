@@ -49,9 +49,12 @@ namespace Supple
     IsotropicMaterial
     preset() const;
 
-    /** Materials of their own by id, checked. @throws InputError */
+    /** Materials of their own by id, checked.
+     * @param names ids of groups of the mesh file, which may be called by their names
+     * @throws InputError */
     std::map<unsigned int, IsotropicMaterial>
-    exceptions(const std::string &origin) const;
+    exceptions(const std::string &origin,
+               const std::map<std::string, unsigned int> &names = {}) const;
 
   private:
     void

@@ -32,9 +32,10 @@ namespace Supple
     std::pair<unsigned int, double>
     nearest_vertex(const dealii::Point<3> &point) const;
 
-    /** The nodes of a boundary. @throws InputError beginning with @p origin if there are none. */
+    /** The nodes of a boundary, by its id or the name of a group of the mesh file. @throws
+     * InputError beginning with @p origin if there are none. */
     std::vector<bool>
-    boundary_nodes(unsigned int boundary_id, const std::string &origin) const;
+    boundary_nodes(const std::string &boundary, const std::string &origin) const;
 
     /**
      * The faces of boundaries that touch a node of this process, their nodes in the order that
@@ -42,7 +43,7 @@ namespace Supple
      * InputError beginning with @p origin if there is no such boundary
      */
     std::vector<std::array<unsigned int, 3>>
-    boundary_faces(const std::vector<unsigned int> &boundary_ids, const std::string &origin) const;
+    boundary_faces(const std::vector<std::string> &boundaries, const std::string &origin) const;
 
     /** The nodes where an expression is not zero. @throws InputError beginning with @p origin if
      * there are none. */
@@ -63,9 +64,10 @@ namespace Supple
     unsigned int
     vertex_of_body(const dealii::Point<3> &point, const std::string &origin) const;
 
-    /** @throws InputError beginning with @p origin */
-    void
-    require_boundary(unsigned int boundary_id, const std::string &origin) const;
+    /** By the id or the name of a group. @throws InputError beginning with @p origin if the body
+     * has no such boundary */
+    unsigned int
+    boundary_id(const std::string &boundary, const std::string &origin) const;
 
     const Body &body;
   };

@@ -57,7 +57,7 @@ namespace Supple
     unsigned int n_local;                         ///< nodes, ghosts included
     std::vector<std::array<double, 3>> positions; ///< of the local nodes [m]
     std::vector<unsigned int> serial_vertex;      ///< their indices in the whole mesh
-    std::vector<unsigned int> pieces;             ///< those of the body that they are in
+    std::vector<unsigned int> parts;              ///< those of the body that they are in
 
     /** Of the patches, all cells of which are on one process: those of its cells and, as ghosts,
      * those of its ghost cells. Null if the mesh has none. */

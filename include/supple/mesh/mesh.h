@@ -9,6 +9,7 @@
 
 #include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace Supple
@@ -36,13 +37,16 @@ namespace Supple
     Section section; ///< solid, or what stands behind the triangles of a plane body
     std::unique_ptr<DistributedMesh> parts;
 
-    unsigned int n_cells    = 0;                     ///< on all processes
-    unsigned int n_vertices = 0;                     ///< on all processes
-    double volume           = 0.;                    ///< [m^3]
-    dealii::BoundingBox<3> bounding_box;             ///< [m]
-    std::map<unsigned int, unsigned int> boundaries; ///< boundary id -> number of its faces
-    std::map<unsigned int, unsigned int> materials;  ///< material id -> number of its cells
+    unsigned int n_cells    = 0;                        ///< on all processes
+    unsigned int n_vertices = 0;                        ///< on all processes
+    double volume           = 0.;                       ///< [m^3]
+    dealii::BoundingBox<3> bounding_box;                ///< [m]
+    std::map<unsigned int, unsigned int> boundaries;    ///< boundary id -> number of its faces
+    std::map<unsigned int, unsigned int> materials;     ///< material id -> number of its cells
+    std::map<std::string, unsigned int> boundary_names; ///< of groups of the file -> boundary id
+    std::map<std::string, unsigned int> material_names; ///< of groups of the file -> material id
     MeshReport report;
+    unsigned int checksum = 0; ///< of vertices, cells and ids
 
     /** Length of the bounding box's diagonal [m]. */
     double

@@ -36,6 +36,38 @@ namespace Supple
     };
     std::vector<Piece> pieces;
 
+    /** Cells that hang together face by face (in the plane: edge by edge): a rigid motion of one of
+     * them is one of all. Most pieces are one part. */
+    struct Part
+    {
+      unsigned int n_cells = 0;
+      unsigned int piece   = 0;
+      dealii::BoundingBox<3> box;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &n_cells &piece &box;
+      }
+    };
+    std::vector<Part> parts;
+
+    /** A vertex that several parts share. */
+    struct Joint
+    {
+      dealii::Point<3> place;
+      std::vector<unsigned int> parts;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &place &parts;
+      }
+    };
+    std::vector<Joint> joints;
+
     std::vector<std::string> warnings; ///< what the user should know, in sentences
 
     template <typename Archive>
@@ -43,7 +75,7 @@ namespace Supple
     serialize(Archive &archive, const unsigned int)
     {
       archive &repaired &slivers &unused_vertices &double_vertices;
-      archive &worst_quality &worst_cell &worst_position &pieces &warnings;
+      archive &worst_quality &worst_cell &worst_position &pieces &parts &joints &warnings;
     }
   };
 
@@ -51,7 +83,8 @@ namespace Supple
   /**
    * Looks a mesh through and mends what can be mended: negative cells are reoriented, and the
    * boundary gets each face with one cell (id 0 where none was given), cell by cell. Each vertex
-   * gets the number of its piece of the body; one that is in no cell gets the number of pieces.
+   * gets the number of its part of the body, the first of several; one that is in no cell gets the
+   * number of parts.
    * @throws InputError beginning with @p origin for flat cells, vertices that do not exist, and
    * faces with more than two cells
    */

@@ -3,9 +3,12 @@
 
 #include <array>
 #include <boost/serialization/array.hpp>
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/point.h>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -43,8 +46,13 @@ namespace Supple
     std::vector<std::array<unsigned int, 4>> cells; ///< of which the first `dimension` + 1 count
     std::vector<unsigned int> materials;            ///< of the cells
     std::vector<unsigned int> patches;              ///< of the cells, or none; see make_patches()
-    std::vector<unsigned int> pieces;               ///< of the vertices; see check_mesh()
+    std::vector<unsigned int> parts;                ///< of the vertices; see check_mesh()
     std::vector<BoundaryFace> boundary;
+
+    // Of a file, on the first process alone.
+    std::map<std::string, unsigned int> material_names; ///< ids of groups of cells by name
+    std::map<std::string, unsigned int> boundary_names; ///< ids of groups of faces by name
+    std::vector<std::string> warnings;                  ///< about the file, in sentences
 
     dealii::ArrayView<const unsigned int>
     cell_vertices(const std::size_t cell) const
@@ -72,7 +80,8 @@ namespace Supple
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &dimension &vertices &cells &materials &patches &pieces &boundary;
+      archive &dimension &vertices &cells &materials &patches &parts &boundary;
+      archive &material_names &boundary_names &warnings;
     }
   };
 } // namespace Supple

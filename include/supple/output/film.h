@@ -2,10 +2,10 @@
 #define supple_film_h
 
 #include <supple/mechanics/body.h>
+#include <supple/output/packed_film.h>
 #include <supple/output/vtu.h>
 
-#include <nlohmann/json_fwd.hpp>
-
+#include <array>
 #include <cstdint>
 #include <fstream>
 #include <string>
@@ -39,32 +39,9 @@ namespace Supple
     void
     write(const Drawing &drawing);
 
-    /** What a page needs to draw it: a description, and the numbers of which it tells the places.
-     */
-    struct Packed
-    {
-      nlohmann::ordered_json
-      description() const;
-
-      std::size_t n_vertices = 0, n_triangles = 0;
-      unsigned int n_written = 0;          ///< frames in the file
-      std::vector<double> times;           ///< of the frames that were taken
-      std::vector<double> steps;           ///< in which they were reached
-      double largest_displacement = 0.;    ///< of a component [m]; the 16 bits of it stand for this
-      std::vector<double> volume_ratio;    ///< least and largest, for 0 and 65535
-      std::vector<double> von_mises;       ///< the same [Pa]
-      std::vector<unsigned int> materials; ///< ids that occur
-      std::vector<unsigned char> bytes;
-    };
-
-    /**
-     * All frames, or as many of them at equal distances, first and last included, as have room in
-     * @p limit bytes. On the first process. Bytes, little-endian: rest positions (3 float each),
-     * triangles (3 uint32), their material id (1 uint16, one more if their number is odd), and for
-     * each frame displacements (3 int16), volume ratio and von Mises stress of the triangles
-     * (uint16).
-     */
-    Packed
+    /** All frames, or as many of them at equal distances, first and last included, as have room in
+     * @p limit bytes. On the first process. */
+    PackedFilm
     pack(std::size_t limit) const;
 
     /** Takes the file away. */
@@ -72,14 +49,6 @@ namespace Supple
     remove() const;
 
   private:
-    /** A frame as it stands in the file. */
-    struct Frame
-    {
-      double time, step;
-      std::vector<float> displacement; ///< of the vertices [m]
-      std::vector<float> cells;        ///< volume ratios of all triangles, then stresses [Pa]
-    };
-
     /** This process's part of it. */
     void
     find_surface();
@@ -101,8 +70,11 @@ namespace Supple
     std::size_t
     frame_size() const;
 
-    Frame
+    FilmFrame
     read_frame(std::ifstream &stream, unsigned int number) const;
+
+    std::vector<FilmFrame>
+    read_frames(unsigned int n_taken) const;
 
     const Body &body;
     const std::string file;

@@ -1,0 +1,48 @@
+#ifndef supple_file_mesh_h
+#define supple_file_mesh_h
+
+#include <supple/mesh/serial_mesh.h>
+
+#include <array>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace Supple
+{
+  /** What a mesh file says, vertex by vertex and element by element, in the numbers of the file. */
+  struct FileMesh
+  {
+    /** A tetrahedron, a triangle or an edge. */
+    struct Element
+    {
+      std::size_t number;
+      std::array<std::size_t, 4> vertices; ///< numbers of the file; dimension + 1 of them count
+      std::vector<unsigned int> ids;       ///< of the groups that it is in
+    };
+
+    std::map<std::size_t, dealii::Point<3>> vertices; ///< by number
+
+    // By the dimension of the elements: 1, 2 or 3.
+    std::array<std::vector<Element>, 4> elements;
+    std::array<std::map<std::string, std::size_t>, 4> others; ///< kind, such as "Hexahedron 8",
+                                                              ///< and how many there are
+    std::array<std::map<std::string, std::set<unsigned int>>, 4> names; ///< ids of groups by name
+
+    std::vector<std::string> warnings; ///< about the file, in sentences
+  };
+
+
+  /**
+   * The body that a file holds: its tetrahedra, or the triangles of one in the plane z = 0.
+   * Vertices and cells have the order of their numbers. Materials are ids of cells, boundaries
+   * those of the elements of one dimension less; of several ids of an element the least one counts,
+   * with a warning.
+   * @throws InputError in words that help if there is no body, or cells are of another kind too
+   */
+  SerialMesh
+  body_of(const FileMesh &file);
+} // namespace Supple
+
+#endif

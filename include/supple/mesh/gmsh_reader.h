@@ -1,0 +1,14 @@
+#ifndef supple_gmsh_reader_h
+#define supple_gmsh_reader_h
+
+#include <supple/mesh/file_mesh.h>
+
+namespace Supple
+{
+  /** Reads a .msh file of Gmsh by its library: versions 1, 2 and 4, ASCII or binary.
+   * @throws InputError if it can't be read, or not all of it */
+  FileMesh
+  read_gmsh(const std::string &file);
+} // namespace Supple
+
+#endif

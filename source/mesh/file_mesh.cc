@@ -1,0 +1,230 @@
+#include <supple/mesh/file_mesh.h>
+
+#include <supple/base/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+namespace Supple
+{
+  namespace
+  {
+    using Element = FileMesh::Element;
+
+    /** The places of vertices in the list of vertices, by their numbers in the file. */
+    class Positions
+    {
+    public:
+      explicit Positions(const FileMesh &file)
+      {
+        for (const auto &[number, place] : file.vertices)
+          numbers.push_back(number);
+      }
+
+      /** @throws InputError if an element names a vertex that is not there */
+      unsigned int
+      operator()(const std::size_t number) const
+      {
+        const auto found = std::lower_bound(numbers.begin(), numbers.end(), number);
+        if (found == numbers.end() || *found != number)
+          throw InputError("an element has the node " + std::to_string(number) +
+                           ", which is not in the file.");
+        return found - numbers.begin();
+      }
+
+    private:
+      std::vector<std::size_t> numbers;
+    };
+
+
+    /** Whether all vertices lie in the plane z = 0. */
+    bool
+    is_flat(const FileMesh &file)
+    {
+      double size = 0., height = 0.;
+      for (const auto &[number, vertex] : file.vertices)
+        {
+          size   = std::max({size, std::abs(vertex[0]), std::abs(vertex[1])});
+          height = std::max(height, std::abs(vertex[2]));
+        }
+      return height <= 1e-9 * size;
+    }
+
+
+    std::string
+    in_words(const std::map<std::string, std::size_t> &kinds)
+    {
+      std::string text;
+      for (const auto &[kind, n] : kinds)
+        text += (text.empty() ? "" : ", ") + std::to_string(n) + " of the kind " + kind;
+      return text;
+    }
+
+
+    /** Cells of another kind beside ours would be lost. */
+    void
+    refuse_other_cells(const FileMesh &file, const unsigned int dimension)
+    {
+      if (!file.others[dimension].empty())
+        throw InputError("it has cells that are not linear " +
+                         std::string(dimension == 3 ? "tetrahedra" : "triangles") + ": " +
+                         in_words(file.others[dimension]) +
+                         ". Mesh the body with tetrahedra (in the plane: triangles) of order 1 "
+                         "alone.");
+    }
+
+
+    /** @throws InputError if there is no body */
+    unsigned int
+    dimension_of(const FileMesh &file)
+    {
+      refuse_other_cells(file, 3);
+      if (!file.elements[3].empty())
+        return 3;
+      refuse_other_cells(file, 2);
+      if (!file.elements[2].empty() && is_flat(file))
+        return 2;
+      std::string text =
+        "it has " + std::to_string(file.vertices.size()) + " vertices but no tetrahedra.";
+      if (!file.elements[2].empty())
+        text += " Triangles alone are a body only if all vertices lie in the plane z = 0.";
+      for (const std::string &warning : file.warnings)
+        text += " " + warning;
+      throw InputError(text);
+    }
+
+
+    std::string
+    group_kind(const unsigned int dimension)
+    {
+      return dimension == 3 ? "volumes" : dimension == 2 ? "surfaces" : "curves";
+    }
+
+
+    std::array<std::size_t, 4>
+    sorted_vertices(const Element &element, const unsigned int dimension)
+    {
+      std::array<std::size_t, 4> sorted = element.vertices;
+      std::sort(sorted.begin(), sorted.begin() + dimension + 1);
+      std::fill(sorted.begin() + dimension + 1, sorted.end(), 0);
+      return sorted;
+    }
+
+
+    /** Where a format has one id for each element, one that is in two groups is there twice. Those
+     * become one; what is given twice with the same id stays, to be refused. */
+    std::vector<Element>
+    joined(const std::vector<Element> &elements, const unsigned int dimension)
+    {
+      std::vector<std::size_t> order(elements.size());
+      std::iota(order.begin(), order.end(), std::size_t(0));
+      std::vector<std::array<std::size_t, 4>> keys;
+      for (const Element &element : elements)
+        keys.push_back(sorted_vertices(element, dimension));
+      std::stable_sort(order.begin(), order.end(), [&](const std::size_t a, const std::size_t b) {
+        return keys[a] < keys[b];
+      });
+
+      std::vector<Element> result = elements;
+      std::vector<bool> drop(elements.size());
+      for (std::size_t first = 0, end = 0; first < order.size(); first = end)
+        {
+          std::set<unsigned int> ids;
+          for (; end < order.size() && keys[order[end]] == keys[order[first]]; ++end)
+            ids.insert(elements[order[end]].ids.begin(), elements[order[end]].ids.end());
+          if (end - first == 1 || ids.size() < end - first)
+            continue;
+          result[order[first]].ids.assign(ids.begin(), ids.end());
+          for (std::size_t i = first + 1; i < end; ++i)
+            drop[order[i]] = true;
+        }
+      std::vector<Element> kept;
+      for (std::size_t i = 0; i < result.size(); ++i)
+        if (!drop[i])
+          kept.push_back(std::move(result[i]));
+      std::stable_sort(kept.begin(), kept.end(), [](const Element &a, const Element &b) {
+        return a.number < b.number;
+      });
+      return kept;
+    }
+
+
+    void
+    add_cells(SerialMesh &mesh, const FileMesh &file, const Positions &position)
+    {
+      std::size_t n_twice = 0;
+      for (const Element &element : joined(file.elements[mesh.dimension], mesh.dimension))
+        {
+          std::array<unsigned int, 4> cell;
+          cell.fill(dealii::numbers::invalid_unsigned_int);
+          for (unsigned int a = 0; a <= mesh.dimension; ++a)
+            cell[a] = position(element.vertices[a]);
+          mesh.cells.push_back(cell);
+          const auto &ids = element.ids;
+          mesh.materials.push_back(ids.empty() ? 0 : *std::min_element(ids.begin(), ids.end()));
+          n_twice += ids.size() > 1;
+        }
+      if (n_twice > 0)
+        mesh.warnings.push_back(std::to_string(n_twice) + " cell(s) belong to two physical " +
+                                group_kind(mesh.dimension) + "; the one of the least id counts.");
+    }
+
+
+    void
+    add_boundary(SerialMesh &mesh, const FileMesh &file, const Positions &position)
+    {
+      for (const Element &element : file.elements[mesh.dimension - 1])
+        for (const unsigned int id : element.ids)
+          {
+            SerialMesh::BoundaryFace face;
+            face.vertices.fill(dealii::numbers::invalid_unsigned_int);
+            for (unsigned int a = 0; a < mesh.dimension; ++a)
+              face.vertices[a] = position(element.vertices[a]);
+            face.boundary_id = id;
+            mesh.boundary.push_back(face);
+          }
+      std::stable_sort(mesh.boundary.begin(),
+                       mesh.boundary.end(),
+                       [](const SerialMesh::BoundaryFace &a, const SerialMesh::BoundaryFace &b) {
+                         return a.boundary_id < b.boundary_id;
+                       });
+      const auto &others = file.others[mesh.dimension - 1];
+      if (!others.empty())
+        mesh.warnings.push_back("Of the surface " + in_words(others) + " are not read.");
+    }
+
+
+    /** Those that stand for one id. */
+    std::map<std::string, unsigned int>
+    unique_names(SerialMesh &mesh, const std::map<std::string, std::set<unsigned int>> &names)
+    {
+      std::map<std::string, unsigned int> unique;
+      for (const auto &[name, ids] : names)
+        if (ids.size() == 1)
+          unique.emplace(name, *ids.begin());
+        else
+          mesh.warnings.push_back("Several groups have the name " + name +
+                                  "; only their ids tell them apart.");
+      return unique;
+    }
+  } // namespace
+
+
+  SerialMesh
+  body_of(const FileMesh &file)
+  {
+    SerialMesh mesh;
+    mesh.dimension = dimension_of(file);
+    mesh.warnings  = file.warnings;
+    for (const auto &[number, vertex] : file.vertices)
+      mesh.vertices.emplace_back(vertex[0], vertex[1], mesh.dimension == 2 ? 0. : vertex[2]);
+    const Positions position(file);
+    add_cells(mesh, file, position);
+    add_boundary(mesh, file, position);
+    mesh.material_names = unique_names(mesh, file.names[mesh.dimension]);
+    mesh.boundary_names = unique_names(mesh, file.names[mesh.dimension - 1]);
+    return mesh;
+  }
+} // namespace Supple

@@ -1,0 +1,180 @@
+#include <supple/mesh/gmsh_reader.h>
+
+#include <supple/base/error.h>
+#include <supple/mesh/msh_elements.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <gmsh.h>
+
+namespace Supple
+{
+  namespace
+  {
+    constexpr int gmsh_point = 15;
+
+    /** Gmsh's library is a global thing: it is there while one of these lives. */
+    class GmshSession
+    {
+    public:
+      explicit GmshSession(const std::string &file)
+      {
+        gmsh::initialize(0, nullptr, false);
+        gmsh::option::setNumber("General.Terminal", 0);
+        gmsh::logger::start();
+        try
+          {
+            gmsh::open(file);
+          }
+        catch (...)
+          {
+            const std::string reason = last_complaint();
+            gmsh::finalize();
+            throw InputError("Gmsh can't read it" + reason);
+          }
+      }
+
+      ~GmshSession()
+      {
+        gmsh::finalize();
+      }
+
+      GmshSession(const GmshSession &) = delete;
+      GmshSession &
+      operator=(const GmshSession &) = delete;
+
+      static std::string
+      last_complaint()
+      {
+        std::vector<std::string> lines;
+        gmsh::logger::get(lines);
+        for (auto line = lines.rbegin(); line != lines.rend(); ++line)
+          if (line->rfind("Error", 0) == 0)
+            return " (" + *line + ")";
+        return "";
+      }
+    };
+
+
+    void
+    read_vertices(FileMesh &mesh)
+    {
+      std::vector<std::size_t> tags;
+      std::vector<double> coordinates, parameters;
+      gmsh::model::mesh::getNodes(tags, coordinates, parameters);
+      for (std::size_t i = 0; i < tags.size(); ++i)
+        mesh.vertices.emplace(tags[i],
+                              dealii::Point<3>(coordinates[3 * i],
+                                               coordinates[3 * i + 1],
+                                               coordinates[3 * i + 2]));
+    }
+
+
+    /** The ids of the groups of an entity, ascending. */
+    std::vector<unsigned int>
+    groups_of(const int dimension, const int entity)
+    {
+      std::vector<int> tags;
+      gmsh::model::getPhysicalGroupsForEntity(dimension, entity, tags);
+      std::vector<unsigned int> ids;
+      for (const int tag : tags)
+        ids.push_back(std::abs(tag));
+      std::sort(ids.begin(), ids.end());
+      ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+      return ids;
+    }
+
+
+    /** Those of one type on one entity. */
+    void
+    add_elements(FileMesh &mesh,
+                 const int type,
+                 const std::vector<std::size_t> &tags,
+                 const std::vector<std::size_t> &nodes,
+                 const std::vector<unsigned int> &groups,
+                 const MshElements &of_file)
+    {
+      std::string name;
+      int dimension, order, n_nodes, n_primary_nodes;
+      std::vector<double> local_coordinates;
+      gmsh::model::mesh::getElementProperties(
+        type, name, dimension, order, n_nodes, local_coordinates, n_primary_nodes);
+      if (order != 1 || n_nodes != dimension + 1)
+        {
+          mesh.others[dimension][name] += tags.size();
+          return;
+        }
+      for (std::size_t e = 0; e < tags.size(); ++e)
+        {
+          FileMesh::Element element{tags[e], {}, groups};
+          std::copy_n(nodes.begin() + n_nodes * e, n_nodes, element.vertices.begin());
+          of_file.find(element.vertices, element.ids);
+          mesh.elements[dimension].push_back(std::move(element));
+        }
+    }
+
+
+    /** Of each entity by itself: elements of several entities may have the same number, and those
+     * of another part of a partitioned mesh that are next to one (ghosts) are given twice. */
+    void
+    read_elements(FileMesh &mesh, const MshElements &of_file)
+    {
+      std::size_t n_loaded = 0;
+      gmsh::vectorpair entities;
+      gmsh::model::getEntities(entities);
+      for (const auto &[dimension, entity] : entities)
+        {
+          std::string kind;
+          gmsh::model::getType(dimension, entity, kind);
+          if (kind.rfind("Ghost", 0) == 0)
+            continue;
+          std::vector<int> types;
+          std::vector<std::vector<std::size_t>> tags, nodes;
+          gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
+          const auto groups = groups_of(dimension, entity);
+          for (std::size_t t = 0; t < types.size(); ++t)
+            {
+              n_loaded += tags[t].size();
+              if (types[t] != gmsh_point)
+                add_elements(mesh, types[t], tags[t], nodes[t], groups, of_file);
+            }
+        }
+      // Gmsh drops elements whose number is taken.
+      if (n_loaded < of_file.n_announced)
+        throw InputError("the file announces " + std::to_string(of_file.n_announced) +
+                         " elements, of which only " + std::to_string(n_loaded) +
+                         " can be read. Each element needs a number of its own; meshio convert "
+                         "(package meshio-tools) numbers them anew.");
+    }
+
+
+    void
+    read_names(FileMesh &mesh)
+    {
+      gmsh::vectorpair groups;
+      gmsh::model::getPhysicalGroups(groups);
+      for (const auto &[dimension, id] : groups)
+        {
+          std::string name;
+          gmsh::model::getPhysicalName(dimension, id, name);
+          if (!name.empty())
+            mesh.names[dimension][name].insert(std::abs(id));
+        }
+    }
+  } // namespace
+
+
+  FileMesh
+  read_gmsh(const std::string &file)
+  {
+    const GmshSession session(file);
+    FileMesh mesh;
+    read_vertices(mesh);
+    read_elements(mesh, read_msh_elements(file));
+    read_names(mesh);
+    const std::string complaint = GmshSession::last_complaint();
+    if (!complaint.empty())
+      mesh.warnings.push_back("Gmsh's library says of the file" + complaint + ".");
+    return mesh;
+  }
+} // namespace Supple
