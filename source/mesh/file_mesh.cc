@@ -107,8 +107,8 @@ namespace Supple
     sorted_vertices(const Element &element, const unsigned int dimension)
     {
       std::array<std::size_t, 4> sorted = element.vertices;
-      std::sort(sorted.begin(), sorted.begin() + dimension + 1);
       std::fill(sorted.begin() + dimension + 1, sorted.end(), 0);
+      std::sort(sorted.begin(), sorted.end());
       return sorted;
     }
 

@@ -26,7 +26,7 @@ namespace Supple
     {
       std::array<std::size_t, 4> key{};
       std::copy(nodes.begin(), nodes.end(), key.begin());
-      std::sort(key.begin(), key.begin() + nodes.size());
+      std::sort(key.begin(), key.end());
       // A negative group means that the element is turned around.
       elements.groups.emplace_back(key, static_cast<unsigned int>(std::labs(group)));
     }
@@ -165,9 +165,7 @@ namespace Supple
   bool
   MshElements::find(std::array<std::size_t, 4> nodes, std::vector<unsigned int> &ids) const
   {
-    const auto end =
-      std::find(nodes.begin(), nodes.end(), std::size_t(0)); // nodes have numbers from 1 on
-    std::sort(nodes.begin(), end);
+    std::sort(nodes.begin(), nodes.end());
     const auto first = std::lower_bound(groups.begin(), groups.end(), std::make_pair(nodes, 0u));
     if (first == groups.end() || first->first != nodes)
       return false;
