@@ -47,7 +47,9 @@ namespace Supple
     {
       using Value = mu::value_type;
       parser.DefineFun(
-        "if", +[](Value condition, Value yes, Value no) { return std::lround(condition) != 0 ? yes : no; });
+        "if", +[](Value condition, Value yes, Value no) {
+          return std::lround(condition) != 0 ? yes : no;
+        });
       parser.DefineFun(
         "log", +[](Value x) { return std::log(x); });
       parser.DefineFun(
@@ -68,6 +70,8 @@ namespace Supple
         "erf", +[](Value x) { return std::erf(x); });
       parser.DefineFun(
         "erfc", +[](Value x) { return std::erfc(x); });
+      parser.DefineInfixOprt(
+        "!", +[](Value x) -> Value { return std::lround(x) == 0; });
       parser.DefineOprt(
         "|",
         +[](Value a, Value b) -> Value { return std::lround(a) != 0 || std::lround(b) != 0; },
@@ -93,6 +97,9 @@ namespace Supple
       void
       refuse()
       {
+        std::smatch word;
+        if (std::regex_search(text, word, std::regex("\\b(and|or|not)\\b")))
+          throw_hint(word.position(), "and is &&, or is ||, not is !.");
         for (std::size_t i = 0; i < text.size(); ++i)
           switch (text[i])
             {
@@ -190,7 +197,7 @@ namespace Supple
       for (unsigned int i = 0; i < 4; ++i)
         parser.DefineVar(std::string(1, "xyzt"[i]), &place_and_time[i]);
       define_functions(parser);
-      parser.SetExpr(text);
+      parser.SetExpr(std::regex_replace(text, std::regex("(\\w)\\s+\\("), "$1("));
       parser.Eval(); // muParser reads the text at the first evaluation
     }
   };
@@ -240,7 +247,7 @@ namespace Supple
   bool
   Expression::says_zero(const std::string &text)
   {
-    return std::regex_match(text, std::regex("[+-]?0*\\.?0*"));
+    return std::regex_match(text, std::regex("[+-]?0*\\.?0*([eE][+-]?[0-9]+)?"));
   }
 
 

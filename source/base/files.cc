@@ -6,7 +6,9 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -64,15 +66,17 @@ namespace Supple
     }
 
 
-    /** A file or a folder; what can't be opened is left alone. */
-    void
+    /** A file or a folder. @return 0, or the errno of what was written and can't be kept: a full
+     * disk may show only now. What can't be opened, or is on no disk, is left alone. */
+    int
     sync(const std::filesystem::path &path)
     {
       const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
       if (descriptor < 0)
-        return;
-      fsync(descriptor);
+        return 0;
+      const int problem = fsync(descriptor) == 0 || errno == EINVAL ? 0 : errno;
       close(descriptor);
+      return problem;
     }
 
 
@@ -104,7 +108,8 @@ namespace Supple
   {
     const std::string aside = file + ".partial";
     write_aside(file, aside, content);
-    sync(aside);
+    if (const int problem = sync(aside))
+      throw WriteError(file + " can't be written (" + std::strerror(problem) + ").");
     rename_whole(aside, file);
     const auto folder = std::filesystem::path(file).parent_path();
     sync(folder.empty() ? "." : folder);

@@ -6,6 +6,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -35,15 +36,6 @@ namespace Supple
     }
 
 
-    /** The file:line of entries and of the outermost subsections. */
-    struct Lines
-    {
-      std::map<std::string, std::string> entries;
-      std::map<std::string, std::string> sections;
-      std::vector<std::string> twice; ///< messages: entries that two lines set
-    };
-
-
     /** With a single blank where there are several, as deal.II reads names. */
     std::string
     plain_name(const std::string &name)
@@ -56,47 +48,114 @@ namespace Supple
     }
 
 
-    /** Finds at which line each entry of a parameter file is set. */
-    Lines
-    find_lines(const std::string &file, const std::string &text)
-    {
-      // Made once: a regular expression takes longer to make than to match.
-      const std::regex subsection("\\s*subsection\\s+(.*?)\\s*(#.*)?", std::regex::icase);
-      const std::regex end("\\s*end\\s*(#.*)?", std::regex::icase);
-      const std::regex entry("\\s*set\\s+(.*?)\\s*=.*", std::regex::icase);
+    using Lines = ParameterFile::Lines;
 
-      Lines found_lines;
-      std::vector<std::string> sections;
-      std::istringstream lines(text);
-      std::string line;
-      for (unsigned int number = 1; std::getline(lines, line); ++number)
-        {
-          const std::string place = file + ":" + std::to_string(number);
-          std::smatch found;
-          if (std::regex_match(line, found, subsection))
-            {
-              const std::string section = plain_name(found[1]);
-              if (sections.empty())
-                found_lines.sections.emplace(section, place);
-              sections.push_back(section);
-            }
-          else if (std::regex_match(line, end) && !sections.empty())
-            sections.pop_back();
-          else if (std::regex_match(line, found, entry))
-            {
-              std::string path;
-              for (const std::string &section : sections)
-                path += section + "/";
-              path += plain_name(found[1]);
-              const auto [known, is_new] = found_lines.entries.emplace(path, place);
-              if (!is_new)
-                found_lines.twice.push_back(place + ": " + path + " is set already, at " +
-                                            known->second +
-                                            "; only one of the two lines would count.");
-              known->second = place;
-            }
-        }
-      return found_lines;
+
+    /** A # amid a word, as in the name of a file, would begin a comment there. */
+    void
+    refuse_comment_within(const std::string &value, const std::string &place)
+    {
+      const auto mark = value.find('#');
+      if (mark == std::string::npos || mark == 0 || mark + 1 == value.size() ||
+          std::isspace(static_cast<unsigned char>(value[mark - 1])) != 0 ||
+          std::isspace(static_cast<unsigned char>(value[mark + 1])) != 0)
+        return;
+      throw InputError(place + ": a # begins a comment, so that only '" +
+                       dealii::Utilities::trim(value.substr(0, mark)) +
+                       "' is left of the value. No value can contain a #; write a comment with "
+                       "blanks around its #.");
+    }
+
+
+    /** Finds at which line each entry of a parameter file is set, line by line. */
+    class LineFinder
+    {
+    public:
+      void
+      read(const std::string &line, const std::string &place)
+      {
+        // Made once: a regular expression takes longer to make than to match.
+        static const std::regex subsection("\\s*subsection\\s+(.*?)\\s*(#.*)?", std::regex::icase);
+        static const std::regex end("\\s*end\\s*(#.*)?", std::regex::icase);
+        static const std::regex entry("\\s*set\\s+(.*?)\\s*=(.*)", std::regex::icase);
+
+        std::smatch found;
+        if (std::regex_match(line, found, subsection))
+          {
+            sections.push_back(plain_name(found[1]));
+            if (sections.size() == 1)
+              lines.sections.emplace(sections[0], place);
+          }
+        else if (std::regex_match(line, end) && !sections.empty())
+          sections.pop_back();
+        else if (std::regex_match(line, found, entry))
+          {
+            refuse_comment_within(found[2], place);
+            set(path_of(plain_name(found[1])), place);
+          }
+      }
+
+      /** Takes the lines of a file that is included here. */
+      void
+      include(const Lines &included)
+      {
+        for (const auto &[name, place] : included.sections)
+          lines.sections.emplace(name, place);
+        for (const auto &[name, place] : included.entries)
+          {
+            const std::string entry = path_of(name);
+            const auto known        = lines.entries.find(entry);
+            if (known != lines.entries.end())
+              refuse_second(entry, place, known->second);
+            lines.entries[entry] = place;
+          }
+      }
+
+      Lines lines;
+
+    private:
+      std::string
+      path_of(const std::string &name) const
+      {
+        std::string path;
+        for (const std::string &section : sections)
+          path += section + "/";
+        return path + name;
+      }
+
+      /** What an included file has set may be set again after it. */
+      void
+      set(const std::string &entry, const std::string &place)
+      {
+        const auto own = own_entries.find(entry);
+        if (own != own_entries.end())
+          refuse_second(entry, place, own->second);
+        own_entries[entry]   = place;
+        lines.entries[entry] = place;
+      }
+
+      [[noreturn]] static void
+      refuse_second(const std::string &entry, const std::string &place, const std::string &first)
+      {
+        throw InputError(
+          place + ": " + entry + " is set already, at " + first +
+          "; only one of the two lines would count." +
+          (entry.rfind("Motion/", 0) == 0 ? " A second motion has subsection Motion 2." : ""));
+      }
+
+      std::vector<std::string> sections; ///< in which the next line is
+      std::map<std::string, std::string> own_entries;
+    };
+
+
+    std::string
+    value_of(const std::string &entry, ParameterHandler &prm)
+    {
+      const auto slash = entry.find('/');
+      prm.enter_subsection(entry.substr(0, slash));
+      const std::string value = prm.get(entry.substr(slash + 1));
+      prm.leave_subsection();
+      return value;
     }
 
 
@@ -107,10 +166,11 @@ namespace Supple
       std::ostringstream printed;
       prm.print_parameters(printed, ParameterHandler::ShortPRM);
       std::istringstream lines(printed.str());
-      std::string line, without_values;
+      LineFinder finder;
+      std::string line;
       while (std::getline(lines, line)) // values may be too long for regular expressions
-        without_values += line.substr(0, std::min(line.find('='), line.size() - 1) + 1) + "\n";
-      return find_lines("", without_values);
+        finder.read(line.substr(0, std::min(line.find('='), line.size() - 1) + 1), "");
+      return finder.lines;
     }
 
 
@@ -179,24 +239,31 @@ namespace Supple
         throw InputError(message);
       std::stringstream content;
       content << stream.rdbuf();
+      if (content.str().rfind("\xef\xbb\xbf", 0) == 0)
+        throw InputError(file +
+                         ":1: the file begins with a byte order mark, three bytes that editors do "
+                         "not show. Save it as UTF-8 without one.");
       return content.str();
     }
 
 
-    /** Refuses what deal.II can't read without an end of the program: long lines, of which one that
-     * ends with a backslash goes on in the next one, and files that include themselves.
+    /** The lines of a file and of those that it includes. Refuses what deal.II can't read without
+     * an end of the program: long lines, of which one that ends with a backslash goes on in the
+     * next one, and files that include themselves.
      * @param including the files that include this one, and this one */
-    void
-    require_readable(const std::string &file,
-                     const std::string &text,
-                     const std::set<std::string> &including)
+    Lines
+    find_lines(const std::string &file,
+               const std::string &text,
+               const std::set<std::string> &including)
     {
+      LineFinder finder;
       std::istringstream lines(text);
       std::string line, joined;
       for (unsigned int number = 1; std::getline(lines, line); ++number)
         {
           const std::string place = file + ":" + std::to_string(number);
           require_length(line.size(), longest_line, place);
+          finder.read(line, place);
           joined += line = dealii::Utilities::trim(line);
           require_length(joined.size(), longest_joined_line, place);
           if (!line.empty() && line.back() == '\\')
@@ -214,13 +281,9 @@ namespace Supple
           auto chain = including;
           if (!chain.insert(std::filesystem::canonical(next)).second)
             throw InputError(place + ": " + next + " includes itself.");
-          require_readable(next, included, chain);
+          finder.include(find_lines(next, included, chain));
         }
-      const auto twice = find_lines(file, text).twice;
-      if (twice.empty())
-        return;
-      const bool moves = twice.front().find(": Motion/") != std::string::npos;
-      throw InputError(twice.front() + (moves ? " A second motion has subsection Motion 2." : ""));
+      return finder.lines;
     }
   } // namespace
 
@@ -252,14 +315,14 @@ namespace Supple
     text = content_of(file, file + ": there is no such parameter file, or it can't be read.");
     if (dealii::Utilities::trim(text).empty())
       throw InputError(file + ": this parameter file is empty.");
-    require_readable(file, text, {std::filesystem::canonical(file)});
+    lines = find_lines(file, text, {std::filesystem::canonical(file)});
   }
 
 
   std::map<std::string, std::string>
   ParameterFile::sections() const
   {
-    return find_lines(file, text).sections;
+    return lines.sections;
   }
 
 
@@ -309,6 +372,7 @@ namespace Supple
     const std::string section = dealii::Utilities::trim(text.substr(0, slash));
     const std::string name    = dealii::Utilities::trim(text.substr(slash + 1, equal - slash - 1));
     const std::string value   = dealii::Utilities::trim(text.substr(equal + 1));
+    refuse_comment_within(value, here);
     try
       {
         prm.parse_input_from_string("subsection " + section + "\nset " + name + " = " + value +
@@ -325,10 +389,9 @@ namespace Supple
   void
   ParameterFile::parse(ParameterHandler &prm, const std::vector<Override> &overrides)
   {
-    const Lines lines = find_lines(file, text);
-    places            = lines.entries;
+    places = lines.entries;
     for (const auto &[entry, place] : known_names(prm).entries)
-      declared.insert(entry);
+      defaults[entry] = value_of(entry, prm);
     std::istringstream content(text);
     try
       {
@@ -347,21 +410,15 @@ namespace Supple
       apply(prm, override);
 
     for (const auto &[entry, place] : places)
-      {
-        const auto slash = entry.find('/');
-        if (slash == std::string::npos)
-          continue;
-        prm.enter_subsection(entry.substr(0, slash));
-        values[entry] = prm.get(entry.substr(slash + 1));
-        prm.leave_subsection();
-      }
+      if (defaults.count(entry) > 0)
+        values[entry] = value_of(entry, prm);
   }
 
 
   void
   ParameterFile::require_declared(const std::string &entry) const
   {
-    if (!declared.empty() && declared.count(entry) == 0)
+    if (!defaults.empty() && defaults.count(entry) == 0)
       throw std::logic_error("the program asks for an entry " + entry +
                              ", which it never declared");
   }
@@ -373,6 +430,15 @@ namespace Supple
     require_declared(entry);
     const auto found = places.find(entry);
     return found == places.end() ? file : found->second;
+  }
+
+
+  bool
+  ParameterFile::changes(const std::string &entry) const
+  {
+    require_declared(entry);
+    const auto found = values.find(entry);
+    return found != values.end() && found->second != defaults.at(entry);
   }
 
 

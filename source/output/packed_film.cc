@@ -1,6 +1,6 @@
 #include <supple/output/packed_film.h>
 
-#include <supple/base/error.h>
+#include <supple/base/compression.h>
 
 #include <nlohmann/json.hpp>
 
@@ -8,8 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <set>
-
-#include <zlib.h>
 
 namespace Supple
 {
@@ -62,18 +60,6 @@ namespace Supple
 
 
     void
-    append_compressed(std::vector<unsigned char> &bytes, const std::vector<unsigned char> &plain)
-    {
-      const std::size_t begin = bytes.size();
-      uLongf size             = compressBound(plain.size());
-      bytes.resize(begin + size);
-      if (compress2(&bytes[begin], &size, plain.data(), plain.size(), Z_BEST_SPEED) != Z_OK)
-        throw WriteError("The frames of the report page can't be packed.");
-      bytes.resize(begin + size);
-    }
-
-
-    void
     widen(std::array<double, 2> &range, const float *const begin, const float *const end)
     {
       const auto [low, high] = std::minmax_element(begin, end);
@@ -91,11 +77,14 @@ namespace Supple
     const std::set<unsigned int> different(materials_of_triangles.begin(),
                                            materials_of_triangles.end());
     materials.assign(different.begin(), different.end());
-    std::vector<std::uint16_t> ids(materials_of_triangles.begin(), materials_of_triangles.end());
-    ids.resize((ids.size() + 1) / 2 * 2);
+    std::vector<std::uint16_t> places;
+    for (const unsigned int id : materials_of_triangles)
+      places.push_back(std::lower_bound(materials.begin(), materials.end(), id) -
+                       materials.begin());
+    places.resize((places.size() + 1) / 2 * 2);
     append(bytes, rest);
     append(bytes, triangles);
-    append(bytes, ids);
+    append(bytes, places);
     n_surface_bytes = bytes.size();
   }
 
@@ -124,7 +113,8 @@ namespace Supple
         before = std::move(values);
       }
     bytes.resize(n_surface_bytes);
-    append_compressed(bytes, plain);
+    const std::string packed = compressed(plain.data(), plain.size());
+    bytes.insert(bytes.end(), packed.begin(), packed.end());
   }
 
 

@@ -1,6 +1,6 @@
 #include <supple/output/vtk_array.h>
 
-#include <supple/base/error.h>
+#include <supple/base/compression.h>
 
 #include <zlib.h>
 
@@ -74,21 +74,6 @@ namespace Supple
       for (const int shift : {24, 16, 8, 0})
         packed += char(sum >> shift);
     }
-
-
-    void
-    append_compressed(std::string &packed,
-                      const unsigned char *const bytes,
-                      const std::size_t n_bytes)
-    {
-      const std::size_t begin = packed.size();
-      uLongf size             = compressBound(n_bytes);
-      packed.resize(begin + size);
-      auto *const to = reinterpret_cast<Bytef *>(&packed[begin]);
-      if (compress2(to, &size, bytes, n_bytes, Z_BEST_SPEED) != Z_OK)
-        throw WriteError("zlib can't compress the cells of a frame.");
-      packed.resize(begin + size);
-    }
   } // namespace
 
 
@@ -108,7 +93,7 @@ namespace Supple
         if (packing == Packing::stored)
           append_stored(packed, bytes + begin, n);
         else
-          append_compressed(packed, bytes + begin, n);
+          packed += compressed(bytes + begin, n);
         header.push_back(packed.size() - before);
       }
 

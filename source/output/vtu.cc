@@ -15,7 +15,7 @@ namespace Supple
     const bool plane = mesh.dimension == 2;
     VtuCells grid{plane ? 5u : 10u, mesh.dimension + 1, {}};
     std::vector<bool> is_drawn(mesh.n_local, false);
-    std::vector<float> material;
+    std::vector<std::int32_t> material;
     for (const LocalCell &cell : mesh.cells)
       if (cell.owned)
         {
@@ -36,7 +36,7 @@ namespace Supple
       if (cell.owned)
         for (unsigned int a = 0; a < grid.points_per_cell; ++a)
           grid.points.push_back(point_of[cell.nodes[a]]);
-    return VtuPiece(grid, {{"material", 1, &material}});
+    return VtuPiece(grid, {{"material", &material}});
   }
 
 

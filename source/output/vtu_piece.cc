@@ -69,9 +69,8 @@ namespace Supple
   } // namespace
 
 
-  VtuPiece::VtuPiece(const VtuCells &cells, const std::vector<VtuField> &constant)
+  VtuPiece::VtuPiece(const VtuCells &cells, const std::vector<VtuIds> &ids)
     : n_cells(cells.points.size() / cells.points_per_cell)
-    , constant_declared(declarations(constant))
   {
     if (cells.points.size() > std::size_t(std::numeric_limits<std::int32_t>::max()))
       throw WriteError(
@@ -87,9 +86,12 @@ namespace Supple
     topology += element(attributes("Int32", "offsets", 1), vtk_array(ends, Packing::compressed));
     topology += element(attributes("UInt8", "types", 1), vtk_array(types, Packing::compressed));
     topology += "</Cells>\n";
-    for (const VtuField &field : constant)
-      constant_fields += element(attributes("Float32", field.name, field.n_components),
-                                 vtk_array(*field.values, Packing::compressed));
+    for (const VtuIds &of_cells : ids)
+      {
+        const std::string declared = attributes("Int32", of_cells.name, 1);
+        ids_declared += "<PDataArray " + declared + "/>\n";
+        ids_packed += element(declared, vtk_array(*of_cells.values, Packing::compressed));
+      }
   }
 
 
@@ -107,7 +109,7 @@ namespace Supple
     append(text, now.of_points);
     text += "</PointData>\n<CellData>\n";
     append(text, now.of_cells);
-    text += constant_fields;
+    text += ids_packed;
     text += "</CellData>\n</Piece>\n";
     return document("UnstructuredGrid", "", text);
   }
@@ -117,8 +119,8 @@ namespace Supple
   VtuPiece::record(const Instant &now, const std::vector<std::string> &files) const
   {
     std::string text = "<PPointData>\n" + declarations(now.of_points) +
-                       "</PPointData>\n<PCellData>\n" + declarations(now.of_cells) +
-                       constant_declared + "</PCellData>\n<PPoints>\n<PDataArray " +
+                       "</PPointData>\n<PCellData>\n" + declarations(now.of_cells) + ids_declared +
+                       "</PCellData>\n<PPoints>\n<PDataArray " +
                        attributes("Float64", "Points", 3) + "/>\n</PPoints>\n";
     for (const std::string &name : files)
       text += "<Piece Source=\"" + name + "\"/>\n";

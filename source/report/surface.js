@@ -34,7 +34,8 @@ export class Surface {
     const {vertices, triangles} = description;
     this.rest = new Float32Array(buffer, 0, 3 * vertices);
     this.corners = new Uint32Array(buffer, 12 * vertices, 3 * triangles);
-    this.materialIds = new Uint16Array(buffer, 12 * (vertices + triangles), 2 * Math.ceil(triangles / 2));
+    const places = new Uint16Array(buffer, 12 * (vertices + triangles), 2 * Math.ceil(triangles / 2));
+    this.materialIds = Uint32Array.from(places, (place) => this.materials[place]);
     this.frames = this.times.map((_, number) => {
       const at = number * (3 * vertices + 2 * triangles);
       return {

@@ -293,7 +293,10 @@ namespace Supple
       std::cout << "; motion " << summary.largest_motion << " m";
     if (summary.has_mass && std::isfinite(summary.error_estimate))
       std::cout << ", sum of local errors " << summary.error_estimate << " m";
-    std::cout << "; " << summary.frames << " frames in " << folder << std::endl;
+    std::cout << "; " << summary.frames << " frames in " << folder;
+    if (!summary.observed)
+      std::cout << "; energies and volumes were not measured (Output/History, Output/Frames)";
+    std::cout << std::endl;
     for (const std::string &text : summary.warnings)
       if (std::find(told.begin(), told.end(), text) == told.end())
         line("warning", text);

@@ -39,7 +39,8 @@ namespace Supple
   {
     if (writes)
       on_first_process(communicator, [&] {
-        if (std::filesystem::is_directory(folder))
+        std::error_code none; // what can't be opened is refused when it is to be made
+        if (std::filesystem::is_directory(folder, none))
           lock = std::make_unique<const FolderLock>(folder);
       });
   }

@@ -29,19 +29,53 @@ namespace Supple
     }
 
 
-    /** The middle of a box, or 27 points where it matters. */
-    std::vector<Point<3>>
-    points_in(const BoundingBox<3> &box, const bool many)
+    /** Both ends and the middle of each part of an interval that is cut at these numbers, of which
+     * the first few count. */
+    std::vector<double>
+    places_between(const double low,
+                   const double high,
+                   const std::vector<double> &numbers,
+                   const std::size_t most_parts)
     {
-      const auto [low, high] = box.get_boundary_points();
-      std::vector<Point<3>> points;
-      for (unsigned int k = 0; k < (many ? 27 : 1); ++k)
+      std::vector<double> ends = {low};
+      for (const double number : numbers)
+        if (number > ends.back() && number < high && ends.size() < most_parts)
+          ends.push_back(number);
+      ends.push_back(high);
+      std::vector<double> places = {low, high};
+      for (std::size_t k = 1; k < ends.size(); ++k)
+        places.push_back(0.5 * (ends[k - 1] + ends[k]));
+      return places;
+    }
+
+
+    /** Points at which the values of an expression may differ: along each coordinate that it names,
+     * the ends of the box and middles between the numbers of its text. */
+    std::vector<Point<3>>
+    points_in(const BoundingBox<3> &box, const std::string &text)
+    {
+      std::vector<double> numbers = numbers_in(text);
+      for (std::size_t k = 0, n = numbers.size(); k < n; ++k)
+        numbers.push_back(-numbers[k]);
+      std::sort(numbers.begin(), numbers.end());
+      std::vector<unsigned int> named;
+      for (unsigned int i = 0; i < 3; ++i)
+        if (std::regex_search(text, std::regex(std::string("\\b") + "xyz"[i] + "\\b")))
+          named.push_back(i);
+
+      const auto [low, high]       = box.get_boundary_points();
+      const std::size_t most_parts = named.size() == 1 ? 8 : named.size() == 2 ? 4 : 3;
+      std::vector<Point<3>> points = {box.center()};
+      for (const unsigned int i : named)
         {
-          const std::array<unsigned int, 3> at = {{k % 3, k / 3 % 3, k / 9}};
-          Point<3> point                       = box.center();
-          for (unsigned int i = 0; many && i < 3; ++i)
-            point[i] = low[i] + 0.5 * at[i] * (high[i] - low[i]);
-          points.push_back(point);
+          std::vector<Point<3>> more;
+          for (const double place : places_between(low[i], high[i], numbers, most_parts))
+            for (Point<3> point : points)
+              {
+                point[i] = place;
+                more.push_back(point);
+              }
+          points = more;
         }
       return points;
     }
@@ -80,10 +114,9 @@ namespace Supple
         Expression value(text, 1, origin);
         if (!value.depends_on_time())
           continue;
-        const bool of_place = std::regex_search(text, std::regex("\\b[xyz]\\b"));
         courses.push_back({entry,
                            std::move(value),
-                           points_in(box, of_place),
+                           points_in(box, text),
                            numbers_in(text),
                            std::numeric_limits<double>::max(),
                            std::numeric_limits<double>::lowest()});

@@ -35,4 +35,11 @@ namespace Supple
   {
     return file.origin(entry);
   }
+
+
+  bool
+  Parameters::changes(const std::string &entry) const
+  {
+    return file.changes(entry);
+  }
 } // namespace Supple

@@ -140,14 +140,15 @@ namespace
             cells.points.push_back(n - 1 - a);
             points.insert(points.end(), {1e6 + 1. / (a + 3), -1e9, a / 7.});
           }
-        const std::vector<float> material = {3}, stress = {2.5e6f};
-        const VtuPiece piece(cells, {{"material", 1, &material}});
+        const std::vector<std::int32_t> material = {2000000011};
+        const std::vector<float> stress          = {2.5e6f};
+        const VtuPiece piece(cells, {{"material", &material}});
         const std::string file = piece.file({0.1, 7, points, {}, {{"stress", 1, &stress}}});
         print<std::int32_t>(file, "connectivity");
         print<std::int32_t>(file, "offsets");
         print<std::uint8_t>(file, "types");
         print<float>(file, "stress");
-        print<float>(file, "material");
+        print<std::int32_t>(file, "material");
         std::printf("  points are %s\n",
                     array<double>(file, "Points") == points ? "exact" : "NOT exact");
       }
@@ -160,7 +161,8 @@ namespace
     std::printf("no cells\n");
     const std::vector<double> points;
     const std::vector<float> none;
-    const VtuPiece piece({10, 4, {}}, {{"material", 1, &none}});
+    const std::vector<std::int32_t> no_ids;
+    const VtuPiece piece({10, 4, {}}, {{"material", &no_ids}});
     const VtuPiece::Instant now{
       0.5, 2, points, {{"displacement", 3, &none}}, {{"stress", 1, &none}}};
     std::printf("%s", piece.file(now).c_str());

@@ -98,6 +98,8 @@ for settings, told in [({"Loads/Body force": f"0; 0; {pulse}"}, "Loads/Body forc
                        ({"Loads/Pressure": "1e3*exp(-((t - 0.51)/0.002)^2)", "Loads/Pressure on": 1}, "Loads/Pressure"),
                        ({"Loads/Nodal force": "0; 0; sin(300*t)"}, "Loads/Nodal force"),
                        ({"Loads/Gravity": f"0; 0; -1e-6*{pulse}"}, "Loads/Gravity"),
+                       ({"Loads/Body force": f"0; 0; if(x > 0.2 && x < 0.8, {pulse}, 0)"}, "Loads/Body force"),
+                       ({"Loads/Body force": f"0; 0; if(y > 9 && y < 10 && z < 1, {pulse}, 0)"}, "Loads/Body force"),
                        ({**moved, "Motion/Displacement": f"free; free; 1e-8*{pulse}"}, "Motion/Displacement"),
                        ({"Loads/Body force": f"0; 0; {pulse}", "Time/Step": 0.001, "Time/Steps": 520}, ""),
                        ({"Loads/Body force": "0; 0; 1e3*sin(20*t) + if(t > 0.55, 1e3, 0)"}, ""),

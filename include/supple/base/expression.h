@@ -13,7 +13,7 @@ namespace Supple
    * A muParser expression of x, y, z [m] and t [s], with one or three components separated by
    * semicolons. Written wrongly it is refused here and not at its first use. To the functions of
    * muParser it adds those that deal.II's FunctionParser has: if(), log() as ln(), pow(), int(),
-   * ceil(), floor(), cot(), csc(), sec(), erf() and erfc(), and the operators & and |.
+   * ceil(), floor(), cot(), csc(), sec(), erf() and erfc(), and the operators &, | and !.
    */
   class Expression
   {

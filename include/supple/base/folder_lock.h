@@ -7,8 +7,9 @@ namespace Supple
 {
   /**
    * While it lives, no other process gets one of the same folder. The system ends it with the
-   * process, however that ends: what a dead run leaves behind locks nothing. A file system that has
-   * no locks gives one to everybody.
+   * process, however that ends: what a dead run leaves behind locks nothing. Where a folder
+   * can't be locked, a file .lock in it is; a file system that has no locks at all gives one to
+   * everybody.
    */
   class FolderLock
   {
@@ -22,7 +23,11 @@ namespace Supple
     operator=(const FolderLock &) = delete;
 
   private:
-    const int descriptor;
+    /** @return whether there is one now; otherwise errno says why not */
+    bool
+    lock() const;
+
+    int descriptor;
   };
 } // namespace Supple
 

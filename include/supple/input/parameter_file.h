@@ -4,7 +4,6 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -61,6 +60,11 @@ namespace Supple
     std::string
     origin(const std::string &entry) const;
 
+    /** Whether the scene gives an entry another value than it has by default. @throws
+     * std::logic_error as place() */
+    bool
+    changes(const std::string &entry) const;
+
     /** The name of the file without folder and ending. */
     std::string
     name() const;
@@ -76,6 +80,13 @@ namespace Supple
     static bool
     has_alone(const std::string &file, const std::string &section);
 
+    /** Where entries and the outermost subsections stand. */
+    struct Lines
+    {
+      std::map<std::string, std::string> entries;  ///< "Section/Entry" -> file:line
+      std::map<std::string, std::string> sections; ///< "Section" -> file:line
+    };
+
   private:
     void
     apply(dealii::ParameterHandler &prm, const Override &override);
@@ -84,7 +95,9 @@ namespace Supple
     require_declared(const std::string &entry) const;
 
     std::string file, text;
-    std::set<std::string> declared;            ///< all entries, once they are parsed
+    Lines lines; ///< with those of included files
+    std::map<std::string, std::string>
+      defaults; ///< all entries with their defaults, once they are parsed
     std::map<std::string, std::string> places; ///< entry -> file:line or who else set it
     std::map<std::string, std::string> values; ///< entry -> value as text
   };

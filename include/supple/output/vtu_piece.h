@@ -26,9 +26,17 @@ namespace Supple
   };
 
 
+  /** Whole numbers of all cells. */
+  struct VtuIds
+  {
+    std::string name;
+    const std::vector<std::int32_t> *values;
+  };
+
+
   /**
-   * A piece of an unstructured grid, as VTU files hold it, in many instants: cells and fields of
-   * cells that stay the same are packed once. Cells share points, and have values of their own.
+   * A piece of an unstructured grid, as VTU files hold it, in many instants: cells and their ids
+   * are packed once. Cells share points, and have values of their own.
    */
   class VtuPiece
   {
@@ -44,10 +52,10 @@ namespace Supple
     };
 
     /**
-     * @param constant fields of cells
+     * @param ids of the cells
      * @throws WriteError if the numbers of the points of all cells don't fit into 32 bits
      */
-    VtuPiece(const VtuCells &cells, const std::vector<VtuField> &constant = {});
+    VtuPiece(const VtuCells &cells, const std::vector<VtuIds> &ids = {});
 
     /** The file of an instant. */
     std::string
@@ -60,8 +68,8 @@ namespace Supple
   private:
     const std::size_t n_cells;
     std::string topology; ///< elements of the XML
-    /** Elements that declare the constant fields, and that have them. */
-    std::string constant_declared, constant_fields;
+    /** Elements that declare the ids, and that have them. */
+    std::string ids_declared, ids_packed;
   };
 } // namespace Supple
 

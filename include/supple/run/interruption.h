@@ -10,8 +10,8 @@
 
 namespace Supple
 {
-  /** Interrupts a run at the step in which Ctrl-C, SIGTERM or the end of the terminal
-   * (SIGHUP) reach it. */
+  /** Interrupts a run at the step in which Ctrl-C, SIGTERM, the end of the terminal
+   * (SIGHUP) or that of the time that the system allows (SIGXCPU) reach it. */
   class Interruption : public Listener
   {
   public:

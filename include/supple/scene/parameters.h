@@ -47,6 +47,10 @@ namespace Supple
     /** Where an entry ("Section/Entry") got its value, and the value: to begin a message with. */
     std::string
     origin(const std::string &entry) const;
+
+    /** Whether the scene gives an entry another value than it has by default. */
+    bool
+    changes(const std::string &entry) const;
   };
 } // namespace Supple
 
