@@ -1,8 +1,7 @@
 #include <supple/base/lone_process.h>
 
-#include <array>
 #include <cstdlib>
-#include <utility>
+#include <filesystem>
 
 namespace Supple
 {
@@ -24,19 +23,39 @@ namespace Supple
   {
     if (was_launched())
       return;
-    // Not ess_singleton_isolated, which is quicker still: all processes with it share one folder of
-    // temporary files, and MPI_Init fails where two of them make it at once.
-    const std::array<std::pair<const char *, const char *>, 2> settings = {
-      {{"OMPI_MCA_pml", "ob1"}, {"OMPI_MCA_btl", "self"}}};
-    for (const auto &[name, value] : settings)
-      if (!std::getenv(name) && setenv(name, value, 0) == 0)
-        set.push_back(name);
+    set("OMPI_MCA_pml", "ob1");
+    set("OMPI_MCA_btl", "self");
+
+    if (std::getenv("OMPI_MCA_orte_tmpdir_base"))
+      return;
+    // Isolated processes would all share one folder, and MPI_Init fails where two of them make it
+    // at once.
+    std::error_code problem;
+    folder = (std::filesystem::temp_directory_path(problem) / "supple-mpi-XXXXXX").string();
+    if (problem || !mkdtemp(&folder[0]))
+      {
+        folder.clear();
+        return;
+      }
+    set("OMPI_MCA_orte_tmpdir_base", folder);
+    set("OMPI_MCA_ess_singleton_isolated", "1");
+  }
+
+
+  void
+  LoneProcess::set(const char *const name, const std::string &value)
+  {
+    if (!std::getenv(name) && setenv(name, value.c_str(), 0) == 0)
+      names.push_back(name);
   }
 
 
   LoneProcess::~LoneProcess()
   {
-    for (const std::string &name : set)
+    for (const std::string &name : names)
       unsetenv(name.c_str());
+    std::error_code nothing_there;
+    if (!folder.empty())
+      std::filesystem::remove_all(folder, nothing_there);
   }
 } // namespace Supple

@@ -13,7 +13,8 @@ namespace
   print(const char *const when)
   {
     std::printf("%s:", when);
-    for (const char *const name : {"OMPI_MCA_pml", "OMPI_MCA_btl"})
+    for (const char *const name :
+         {"OMPI_MCA_pml", "OMPI_MCA_btl", "OMPI_MCA_ess_singleton_isolated"})
       {
         const char *const value = std::getenv(name);
         std::printf(" %s", value ? value : "-");
@@ -39,8 +40,13 @@ namespace
 int
 main()
 {
-  for (const char *const name :
-       {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "OMPI_MCA_pml", "OMPI_MCA_btl"})
+  for (const char *const name : {"OMPI_COMM_WORLD_SIZE",
+                                 "PMIX_RANK",
+                                 "PMI_RANK",
+                                 "OMPI_MCA_pml",
+                                 "OMPI_MCA_btl",
+                                 "OMPI_MCA_orte_tmpdir_base",
+                                 "OMPI_MCA_ess_singleton_isolated"})
     unsetenv(name);
   print_all("alone");
   for (const char *const launcher : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})

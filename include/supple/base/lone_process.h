@@ -8,8 +8,8 @@ namespace Supple
 {
   /**
    * Spares a process that was not started by an MPI launcher what MPI prepares to speak with
-   * others: Open MPI 4 looks for networks, for 0.2 s. To be made before MPI_Init, and gone after
-   * it: programs that this one starts do not inherit it.
+   * others: Open MPI 4 looks for networks and starts a daemon, which takes 0.3 s. To be made before
+   * MPI_Init, and gone after it: programs that this one starts do not inherit it.
    *
    * It sets variables of the environment, but none that is there, and does nothing under a
    * launcher. Other kinds of MPI take no notice of them.
@@ -19,7 +19,7 @@ namespace Supple
   public:
     LoneProcess();
 
-    /** Takes away what was set. */
+    /** Takes away what was set, and the folder of MPI's temporary files. */
     ~LoneProcess();
 
     LoneProcess(const LoneProcess &) = delete;
@@ -27,7 +27,11 @@ namespace Supple
     operator=(const LoneProcess &) = delete;
 
   private:
-    std::vector<std::string> set; ///< names of variables
+    void
+    set(const char *name, const std::string &value);
+
+    std::vector<std::string> names; ///< of variables that were set
+    std::string folder;             ///< of temporary files of MPI
   };
 } // namespace Supple
 
