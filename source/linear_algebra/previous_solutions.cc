@@ -82,12 +82,4 @@ namespace Supple
     matrix.col(next).head(n)       = products;
     next                           = (next + 1) % n_kept;
   }
-
-
-  void
-  PreviousSolutions::clear()
-  {
-    pairs.clear();
-    next = 0;
-  }
 } // namespace Supple

@@ -2,7 +2,7 @@
 
 #include <supple/base/error.h>
 #include <supple/base/files.h>
-#include <supple/base/gather.h>
+#include <supple/mechanics/vertex_values.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 
 namespace Supple
 {
@@ -21,7 +22,7 @@ namespace Supple
 
   namespace
   {
-    const std::string any_head = "supple checkpoint ", head = any_head + "2\n";
+    const std::string any_head = "supple checkpoint ", head = any_head + "3\n";
 
     std::string
     checksum(const std::string &content)
@@ -132,33 +133,6 @@ namespace Supple
   }
 
 
-  std::vector<double>
-  Checkpoint::gathered(const Vector &vector) const
-  {
-    std::vector<double> own;
-    for (unsigned int node = 0; node < body.n_owned; ++node)
-      {
-        own.push_back(body.serial_vertex[node]);
-        for (unsigned int i = 0; i < 3; ++i)
-          own.push_back(vector.local_element(3 * node + i));
-      }
-    const std::vector<double> all = gathered_on_first(own, body.mesh.communicator);
-    std::vector<double> values(3 * body.mesh.n_vertices);
-    for (std::size_t k = 0; k < all.size(); k += 4)
-      std::copy_n(&all[k + 1], 3, &values[3 * static_cast<std::size_t>(all[k])]);
-    return values;
-  }
-
-
-  void
-  Checkpoint::scatter(Vector &vector, const std::vector<double> &values) const
-  {
-    for (unsigned int node = 0; node < body.n_owned; ++node)
-      for (unsigned int i = 0; i < 3; ++i)
-        vector.local_element(3 * node + i) = values[3 * body.serial_vertex[node] + i];
-  }
-
-
   void
   Checkpoint::write(const unsigned int step,
                     const std::vector<const Vector *> &vectors,
@@ -166,7 +140,7 @@ namespace Supple
   {
     Json all;
     for (const Vector *vector : vectors)
-      all["vectors"].push_back(gathered(*vector));
+      all["vectors"].push_back(gathered_by_vertex(body, vector->begin()));
     all["identity"] = identity();
     all["step"]     = step;
     all["rest"]     = rest;
@@ -247,6 +221,10 @@ namespace Supple
       {
         refuse_content();
       }
+    catch (const std::out_of_range &)
+      {
+        refuse_content();
+      }
   }
 
 
@@ -265,11 +243,7 @@ namespace Supple
     if (saved.size() < n_needed)
       refuse_content();
     for (unsigned int k = 0; k < std::min(saved.size(), vectors.size()); ++k)
-      {
-        if (saved[k].size() != 3 * body.mesh.n_vertices)
-          refuse_content();
-        scatter(*vectors[k], saved[k]);
-      }
+      scatter_by_vertex(body, saved[k], vectors[k]->begin());
     last_step     = all.at("step");
     read_in_words = "step " + std::to_string(last_step) + " of " +
                     std::filesystem::path(name).filename().string();

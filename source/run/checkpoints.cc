@@ -34,6 +34,8 @@ namespace Supple
                  folder)
     , kept(std::make_unique<Json>(Json::object()))
   {
+    if (problem.parameters.checkpoint.wanted())
+      integrator.keep_past();
   }
 
 
@@ -114,9 +116,9 @@ namespace Supple
   Checkpoints::take(const Json &saved)
   {
     course.load(saved.at("course"));
-    integrator.load(saved.at("integrator"));
     problem.configuration.load_cells(saved.at("cells"), problem.effort);
     problem.implicit_operator.load(saved.at("operator"));
+    integrator.load(saved.at("integrator"));
     if (diagnostics && !saved.contains("diagnostics"))
       throw InputError(problem.parameters.origin("Output/History") +
                        ": the run to go on from measured no energies, for it wrote neither a "
@@ -141,7 +143,6 @@ namespace Supple
                  {"listeners", *kept}};
     if (diagnostics)
       rest["diagnostics"] = diagnostics->save();
-    problem.solver->forget(); // as a run that goes on from here
     const auto vectors = kept_vectors();
     checkpoint.write(course.now.step, {vectors.begin(), vectors.end()}, rest);
   }

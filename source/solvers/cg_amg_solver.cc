@@ -175,16 +175,6 @@ namespace Supple
         return shares;
       }
 
-      void
-      forget() override
-      {
-        built          = false;
-        rule           = {};
-        reduction      = largest_reduction;
-        last_curvature = 0.;
-        previous.clear();
-      }
-
       std::string
       name() const override
       {

@@ -142,11 +142,10 @@ namespace Supple
 
 
   nlohmann::json
-  ImplicitOperator::save()
+  ImplicitOperator::save() const
   {
     if (!renewable)
       return nullptr;
-    made = false;
     return {{"mass", factors.mass},
             {"velocity", factors.velocity},
             {"displacement", factors.displacement},

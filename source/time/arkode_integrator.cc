@@ -84,6 +84,7 @@ namespace Supple
 
   ArkodeIntegrator::ArkodeIntegrator(const Model &model)
     : DynamicIntegrator(model, rotations_of(model.time.method), held_velocity_of(model.time.method))
+    , remembers(adaptive || (!settings.is_explicit() && settings.method != Method::backward_euler))
     , mass_system(context)
     , error(equation.n_unknowns(), model.body.mesh.communicator, context)
     , last_size(settings.step)
@@ -95,7 +96,6 @@ namespace Supple
       set_linear_systems();
     if (adaptive)
       {
-        ARKStepSetMinStep(memory, shortest_step());
         ARKStepSetMaxStep(memory, longest_step());
         ARKStepSetMaxFirstGrowth(memory, 10.); // not 10000: the first step was not a guess
       }
@@ -120,10 +120,11 @@ namespace Supple
   nlohmann::json
   ArkodeIntegrator::save()
   {
-    started = false;
-    if (adaptive)
-      ARKStepGetCurrentStep(memory, &last_size);
-    return {{"time", time}, {"grid", grid}, {"last_size", last_size}};
+    nlohmann::json saved = {{"time", time}, {"grid", grid}, {"last_size", last_size}};
+    saved["equation"]    = equation.save(adaptive);
+    if (remembers && started)
+      saved["memory"] = save_memory();
+    return saved;
   }
 
 
@@ -133,6 +134,14 @@ namespace Supple
     time      = saved.at("time");
     grid      = saved.at("grid");
     last_size = saved.at("last_size");
+    equation.load(saved.at("equation"));
+    if (!remembers || !saved.contains("memory"))
+      return;
+    load_memory(saved.at("memory"));
+    if (adaptive)
+      set_end(end);
+    ARKStepGetNumNonlinSolvIters(memory, &newton_iterations);
+    started = true;
   }
 
 
@@ -288,14 +297,43 @@ namespace Supple
   ArkodeIntegrator::restart()
   {
     equation.get_unknowns(unknowns.data());
-    ARKStepReset(memory, time, unknowns);
-    ode_time = time;
+    reset(time, last_size, end);
     if (adaptive)
-      {
-        ARKStepSetStopTime(memory, end); // which the line above has made it forget
-        ARKStepSetInitStep(memory, last_size);
-      }
+      begin_past(time, last_size);
     started = true;
+  }
+
+
+  void
+  ArkodeIntegrator::reset(const double at, const double first_size, const double end_of_run)
+  {
+    ARKStepReset(memory, at, unknowns);
+    ode_time = at;
+    if (!adaptive)
+      return;
+    set_end(end_of_run); // which the line above has made it forget
+    ARKStepSetInitStep(memory, first_size);
+  }
+
+
+  void
+  ArkodeIntegrator::set_end(const double end_of_run)
+  {
+    ARKStepSetStopTime(memory, end_of_run);
+    ARKStepSetMinStep(memory, shortest_step(end_of_run));
+  }
+
+
+  bool
+  ArkodeIntegrator::repeat_past()
+  {
+    reset(past.start, past.first_size, past.end);
+    if (!adaptive)
+      set_step_size(past.first_size);
+    for (unsigned int step = 0; step < past.n_steps; ++step)
+      if (ARKStepEvolve(memory, 2. * past.end, unknowns, &ode_time, ARK_ONE_STEP) < 0)
+        return false;
+    return true;
   }
 
 
@@ -316,11 +354,15 @@ namespace Supple
   {
     context.message.clear();
     ode_start = ode_time;
+    if (remembers && !adaptive) // of fixed steps one is as good as all, and nothing is decided
+      past = {ode_start, set_size, end, 0};
     // a time that one step does not reach: ARKode would interpolate
     const int status = ARKStepEvolve(memory, 2. * end, unknowns, &ode_time, ARK_ONE_STEP);
-    if (status >= 0)
-      failure.forget(); // what failed on the way was mended by a smaller step
-    return status >= 0;
+    if (status < 0)
+      return false;
+    failure.forget(); // what failed on the way was mended by a smaller step
+    ++past.n_steps;
+    return true;
   }
 
 

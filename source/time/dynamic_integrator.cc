@@ -1,14 +1,21 @@
 #include <supple/time/dynamic_integrator.h>
 
 #include <supple/base/error.h>
+#include <supple/mechanics/vertex_values.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <stdexcept>
 
 namespace Supple
 {
+  using Json = nlohmann::json;
+
   DynamicIntegrator::DynamicIntegrator(const Model &model,
                                        const EquationOfMotion::Rotations rotations,
                                        const EquationOfMotion::HeldVelocity held_velocity)
@@ -21,6 +28,7 @@ namespace Supple
     , system(context)
     , unknowns(equation.n_unknowns(), model.body.mesh.communicator, context)
     , absolute_tolerances(equation.n_unknowns(), model.body.mesh.communicator, context)
+    , failure(context)
     , guard(model)
     , guarded(settings.energy_guard == TimeParameters::EnergyGuard::reject)
   {
@@ -69,9 +77,79 @@ namespace Supple
 
 
   double
-  DynamicIntegrator::shortest_step() const
+  DynamicIntegrator::shortest_step(const double end_of_run)
   {
-    return 1e-12 * end;
+    return 1e-12 * end_of_run;
+  }
+
+
+  void
+  DynamicIntegrator::begin_past(const double start, const double first_size)
+  {
+    past = {start, first_size, end, 0};
+    if (keeps_past)
+      context.record->begin();
+  }
+
+
+  Json
+  DynamicIntegrator::save_memory() const
+  {
+    const Sundials::Decisions &decisions = context.record->decisions();
+
+    Json vectors = Json::array();
+    for (const N_Vector vector : remembered())
+      {
+        vectors.push_back(gathered_by_vertex(model.body, Sundials::data(vector)));
+        vectors.push_back(
+          gathered_by_vertex(model.body, Sundials::data(vector) + equation.n_unknowns() / 2));
+      }
+    return {{"start", past.start},
+            {"first_size", past.first_size},
+            {"end", past.end},
+            {"steps", past.n_steps},
+            {"reductions", decisions.reductions},
+            {"failures", decisions.failures},
+            {"calls", decisions.n_calls},
+            {"vectors", vectors}};
+  }
+
+
+  void
+  DynamicIntegrator::load_memory(const Json &saved)
+  {
+    past.start      = saved.at("start");
+    past.first_size = saved.at("first_size");
+    past.end        = saved.at("end");
+    past.n_steps    = saved.at("steps");
+
+    Sundials::Decisions decisions;
+    decisions.reductions = saved.at("reductions").get<std::vector<double>>();
+    decisions.failures   = saved.at("failures").get<std::map<unsigned long, int>>();
+    decisions.n_calls    = saved.at("calls");
+    context.record->play(decisions);
+    const bool repeated = repeat_past();
+    const bool ended    = context.record->end_of_play();
+
+    const auto values = saved.at("vectors").get<std::vector<std::vector<double>>>();
+    const std::vector<N_Vector> vectors = remembered();
+    if (!repeated || !ended || values.size() != 2 * vectors.size())
+      throw std::out_of_range("steps of another integrator");
+    for (std::size_t k = 0; k < vectors.size(); ++k)
+      {
+        double *const entries = Sundials::data(vectors[k]);
+        scatter_by_vertex(model.body, values[2 * k], entries);
+        scatter_by_vertex(model.body, values[2 * k + 1], entries + equation.n_unknowns() / 2);
+      }
+  }
+
+
+  std::vector<N_Vector>
+  DynamicIntegrator::remembered() const
+  {
+    std::vector<N_Vector> vectors = context.record->vectors;
+    vectors.push_back(unknowns);
+    return vectors;
   }
 
 

@@ -1,6 +1,9 @@
 #include <supple/time/equation_of_motion.h>
 
 #include <supple/base/error.h>
+#include <supple/mechanics/vertex_values.h>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -266,6 +269,54 @@ namespace Supple
                                 model.effort);
     if (model.implicit_operator.assemble(gamma))
       model.solver.prepare(model.configuration.displacement());
+    origin = {model.configuration.displacement(), configuration_time, gamma, replaced};
+  }
+
+
+  nlohmann::json
+  EquationOfMotion::save(const bool with_operator) const
+  {
+    nlohmann::json saved = {{"stage_time", stage_time},
+                            {"stage_solutions", stage_solutions},
+                            {"correction", correction},
+                            {"contraction", contraction},
+                            {"solution", gathered_by_vertex(model.body, solution.begin())}};
+    if (with_operator && origin.gamma > 0.)
+      saved["operator"] = {{"displacement",
+                            gathered_by_vertex(model.body, origin.displacement.begin())},
+                           {"time", origin.time},
+                           {"gamma", origin.gamma},
+                           {"replaced", origin.replaced}};
+    return saved;
+  }
+
+
+  void
+  EquationOfMotion::load(const nlohmann::json &saved)
+  {
+    stage_time      = saved.at("stage_time");
+    stage_solutions = saved.at("stage_solutions");
+    correction      = saved.at("correction");
+    contraction     = saved.at("contraction");
+    scatter_by_vertex(model.body, saved.at("solution"), solution.begin());
+    if (saved.contains("operator"))
+      assemble_as_at(saved.at("operator"));
+  }
+
+
+  void
+  EquationOfMotion::assemble_as_at(const nlohmann::json &saved)
+  {
+    Vector &displacement = model.configuration.state.displacement;
+    const Vector now     = displacement;
+    scatter_by_vertex(model.body, saved.at("displacement"), displacement.begin());
+    model.configuration.update_rotations(model.effort);
+    configuration_time = saved.at("time");
+    gamma              = saved.at("gamma");
+    replaced           = saved.at("replaced");
+    assemble();
+    displacement = now;
+    model.configuration.update_rotations(model.effort);
   }
 
 

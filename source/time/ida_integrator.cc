@@ -21,7 +21,6 @@ namespace Supple
     , rates(equation.n_unknowns(), model.body.mesh.communicator, context)
     , error(equation.n_unknowns(), model.body.mesh.communicator, context)
     , work_space(equation.n_unknowns())
-    , last_size(settings.step)
   {
     create_memory();
     set_linear_system();
@@ -45,17 +44,28 @@ namespace Supple
   nlohmann::json
   IdaIntegrator::save()
   {
-    started = false; // the formulas' past is not kept: they begin anew at order one
-    IDAGetCurrentStep(memory, &last_size);
-    return {{"time", time}, {"last_size", last_size}};
+    nlohmann::json saved = {{"time", time}, {"equation", equation.save(true)}};
+    if (started)
+      {
+        saved["memory"]        = save_memory();
+        saved["linearized_at"] = linearized_at;
+      }
+    return saved;
   }
 
 
   void
   IdaIntegrator::load(const nlohmann::json &saved)
   {
-    time      = saved.at("time");
-    last_size = saved.at("last_size");
+    time = saved.at("time");
+    equation.load(saved.at("equation"));
+    if (!saved.contains("memory"))
+      return;
+    load_memory(saved.at("memory"));
+    set_end(end);
+    linearized_at = saved.at("linearized_at");
+    IDAGetNumNonlinSolvIters(memory, &newton_iterations);
+    started = true;
   }
 
 
@@ -79,7 +89,6 @@ namespace Supple
     IDASVtolerances(memory, set_tolerances(), absolute_tolerances);
     IDASetMaxOrd(memory, settings.maximum_order);
     IDASetMaxNumSteps(memory, -1);
-    IDASetMinStep(memory, shortest_step());
     if (settings.longest_step > 0.)
       IDASetMaxStep(memory, settings.longest_step);
   }
@@ -154,10 +163,38 @@ namespace Supple
     equation.get_unknowns(unknowns.data());
     equation.evaluate(work_space.data(), time, unknowns.data());
     equation.solve_mass(rates.data(), work_space.data());
-    IDAReInit(memory, time, unknowns, rates);
-    IDASetStopTime(memory, end);
-    IDASetInitStep(memory, last_size);
+    begin_at(time, settings.step, end);
+    begin_past(time, settings.step);
     started = true;
+  }
+
+
+  void
+  IdaIntegrator::begin_at(const double at, const double first_size, const double end_of_run)
+  {
+    IDAReInit(memory, at, unknowns, rates);
+    set_end(end_of_run);
+    IDASetInitStep(memory, first_size);
+  }
+
+
+  void
+  IdaIntegrator::set_end(const double end_of_run)
+  {
+    IDASetStopTime(memory, end_of_run);
+    IDASetMinStep(memory, shortest_step(end_of_run));
+  }
+
+
+  bool
+  IdaIntegrator::repeat_past()
+  {
+    double at = past.start;
+    begin_at(past.start, past.first_size, past.end);
+    for (unsigned int step = 0; step < past.n_steps; ++step)
+      if (IDASolve(memory, past.end, &at, unknowns, rates, IDA_ONE_STEP) < 0)
+        return false;
+    return true;
   }
 
 
@@ -183,6 +220,7 @@ namespace Supple
     count_rejections();
     if (status < 0)
       throw_what_failed();
+    ++past.n_steps;
     failure.forget(); // what failed on the way was mended by a smaller step
     equation.set_configuration(report.time, unknowns.data());
 

@@ -33,9 +33,6 @@ namespace Supple
     void
     add(const Vector &x, const Vector &b, const Vector &residual);
 
-    void
-    clear();
-
   private:
     struct Pair
     {

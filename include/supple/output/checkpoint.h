@@ -89,12 +89,6 @@ namespace Supple
     nlohmann::json
     unpack(const nlohmann::json &all, const std::vector<Vector *> &vectors, unsigned int n_needed);
 
-    std::vector<double>
-    gathered(const Vector &vector) const;
-
-    void
-    scatter(Vector &vector, const std::vector<double> &values) const;
-
     const Body &body;
     const CheckpointParameters &wanted;
     const std::string scene;

@@ -40,10 +40,9 @@ namespace Supple
     bool
     assemble(double gamma);
 
-    /** What a checkpoint keeps beside the configuration: of what A with kept rotations is made. The
-     * next A is assembled from these, as in a run that goes on from the checkpoint. */
+    /** What a checkpoint keeps beside the configuration: of what A with kept rotations is made. */
     nlohmann::json
-    save();
+    save() const;
 
     /** The next A is made with the rotations that the configuration keeps. */
     void

@@ -45,13 +45,6 @@ namespace Supple
     unsigned int
     solve(Vector &x, const Vector &b);
 
-    /** Forgets what it has learned of earlier systems: after the next prepare() solutions are those
-     * of a new solver. */
-    virtual void
-    forget()
-    {
-    }
-
     virtual std::string
     name() const = 0;
 

@@ -86,6 +86,17 @@ namespace Supple
     void
     restart();
 
+    /** Sets ARKode to a state without a past, with a first step. @param end_of_run [s] */
+    void
+    reset(double at, double first_size, double end_of_run);
+
+    bool
+    repeat_past() override;
+
+    /** Where variable steps end. */
+    void
+    set_end(double end_of_run);
+
     /** One step of ARKode. @return whether it succeeded */
     bool
     evolve();
@@ -119,7 +130,8 @@ namespace Supple
     StepReport
     take_fixed_step();
 
-    bool linear = false; ///< each stage is one linear system
+    const bool remembers; ///< more than the configuration from step to step
+    bool linear = false;  ///< each stage is one linear system
     Sundials::LinearSystem mass_system;
     Sundials::StateVector error;
     void *memory           = nullptr;

@@ -51,9 +51,37 @@ namespace Supple
     double
     set_tolerances();
 
-    /** Of variable steps [s]: those that end up here would go on for ever. */
-    double
-    shortest_step() const;
+    /** Of variable steps [s]: those that end up here would go on for ever.
+     * @param end_of_run [s] */
+    static double
+    shortest_step(double end_of_run);
+
+    /** From where on SUNDIALS's decisions are kept. */
+    struct Past
+    {
+      double start         = 0.; ///< as SUNDIALS counts [s]
+      double first_size    = 0.; ///< of the first step [s]
+      double end           = 0.; ///< of the run [s]
+      unsigned int n_steps = 0;  ///< since then
+    };
+
+    /** Keeps SUNDIALS's decisions from here on. */
+    void
+    begin_past(double start, double first_size);
+
+    /** What SUNDIALS's integrator remembers: its past in decisions, the contents of its vectors.
+     * Collective, counts on the first process. */
+    nlohmann::json
+    save_memory() const;
+
+    /** The same taken back. Collective.
+     * @throws nlohmann::json::exception, std::out_of_range if @p saved is something else */
+    void
+    load_memory(const nlohmann::json &saved);
+
+    /** Has SUNDIALS take the steps of the past from its start again. @return whether it did */
+    virtual bool
+    repeat_past() = 0;
 
     /** Throws what a callback threw, or else what SUNDIALS says. */
     [[noreturn]] void
@@ -71,11 +99,16 @@ namespace Supple
     Sundials::LinearSystem system;
     Sundials::StateVector unknowns, absolute_tolerances;
     Sundials::Failure failure;
+    Past past;
 
   private:
     /** The rate at which a pressure wave runs through the body [1/s]. */
     double
     wave_rate() const;
+
+    /** The vectors that SUNDIALS goes on with. */
+    std::vector<N_Vector>
+    remembered() const;
 
     /** Reactions, work and what was expended. */
     void

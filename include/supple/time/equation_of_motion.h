@@ -116,6 +116,15 @@ namespace Supple
       return model.configuration.rotations_are == Rotations::frozen;
     }
 
+    /** What a run that goes on needs of the past; collective, counts on the first process.
+     * @param with_operator whether the operator may serve further steps */
+    nlohmann::json
+    save(bool with_operator) const;
+
+    /** The same taken back, with the configuration as it was then. Collective. */
+    void
+    load(const nlohmann::json &saved);
+
     const Model model;
     unsigned int linear_iterations = 0; ///< so far
 
@@ -134,6 +143,10 @@ namespace Supple
     /** The operator at the configuration. */
     void
     assemble();
+
+    /** The operator of which save() was called, and the configuration as it is. */
+    void
+    assemble_as_at(const nlohmann::json &saved);
 
     const unsigned int n;   ///< own degrees of freedom
     Tangent tangent;        ///< wanted
@@ -155,6 +168,16 @@ namespace Supple
 
     double gamma = 0.;
     Vector force, scratch, solution;
+
+    /** Of what the operator was assembled. */
+    struct Origin
+    {
+      Vector displacement; ///< [m]
+      double time   = 0.;  ///< [s]
+      double gamma  = 0.;  ///< [s]; 0 if there is no operator yet
+      bool replaced = false;
+    };
+    Origin origin;
   };
 } // namespace Supple
 

@@ -53,13 +53,22 @@ namespace Supple
     void
     start();
 
+    /** Has IDA begin at order one. @param end_of_run [s] */
+    void
+    begin_at(double at, double first_size, double end_of_run);
+
+    bool
+    repeat_past() override;
+
+    void
+    set_end(double end_of_run);
+
     /** So far. */
     void
     count_rejections();
 
     Sundials::StateVector rates, error;
     std::vector<double> work_space;
-    double last_size; ///< a first step that is tried [s]
     void *memory           = nullptr;
     bool started           = false;
     long newton_iterations = 0;

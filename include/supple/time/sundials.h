@@ -9,7 +9,10 @@
 
 #include <exception>
 #include <functional>
+#include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace Supple
 {
@@ -20,6 +23,67 @@ namespace Supple
    */
   namespace Sundials
   {
+    /** What decides over the memory of an integrator: the results of all reductions over its
+     * vectors, and the codes of callbacks that failed, by the number of the call. */
+    struct Decisions
+    {
+      std::vector<double> reductions;
+      std::map<unsigned long, int> failures;
+      unsigned long n_calls = 0;
+    };
+
+
+    /**
+     * Keeps the decisions of an integrator from an instant on, and plays them back: a new
+     * integrator goes through the same steps without computing any of them, and then lacks the
+     * contents of its vectors alone. SUNDIALS neither tells nor takes what an integrator remembers.
+     */
+    class Record
+    {
+    public:
+      /** Keeps the decisions from here on. */
+      void
+      begin();
+
+      /** Gives these decisions from here on, instead of those that are computed. Without any,
+       * reductions give zero and callbacks succeed: so each step does. */
+      void
+      play(const Decisions &decisions);
+
+      /** Goes on with what was played. @return whether all of it was asked for, and no more */
+      bool
+      end_of_play();
+
+      bool
+      plays() const
+      {
+        return playing;
+      }
+
+      double
+      reduction(const std::function<double()> &compute);
+
+      int
+      call(const std::function<int()> &callback);
+
+      const Decisions &
+      decisions() const
+      {
+        return kept;
+      }
+
+      /** That the integrator has made for itself and not destroyed, in the order of their making.
+       */
+      std::vector<N_Vector> vectors;
+
+    private:
+      Decisions kept;
+      bool keeping = false, playing = false;
+      std::size_t n_reductions = 0; ///< played
+      unsigned long n_calls    = 0; ///< played
+    };
+
+
     /** SUNDIALS's context. What its integrators have to say is kept and not printed. */
     class Context
     {
@@ -38,6 +102,7 @@ namespace Supple
       }
 
       std::string message; ///< the last error, empty if there was none
+      std::unique_ptr<Record> record;
 
     private:
       MPI_Comm communicator;
@@ -104,7 +169,13 @@ namespace Supple
     class Failure
     {
     public:
-      /** 0, or 1 if a ComputationError was thrown, -1 for anything else. */
+      explicit Failure(const Context &context)
+        : record(*context.record)
+      {
+      }
+
+      /** 0, or 1 if a ComputationError was thrown, -1 for anything else; where a record is played,
+       * what it was then. */
       int
       guard(const std::function<void()> &action);
 
@@ -119,6 +190,7 @@ namespace Supple
       }
 
     private:
+      Record &record;
       std::exception_ptr kept;
     };
   } // namespace Sundials

@@ -26,11 +26,20 @@ namespace Supple
     virtual StepReport
     advance(bool observed) = 0;
 
-    /** State beyond the configuration that a resumed run needs. Also resets the history of the
-     * method, so that the running and the resumed run take identical steps. */
+    /** To be called before the first step, or load(), if save() will be. */
+    void
+    keep_past()
+    {
+      keeps_past = true;
+    }
+
+    /** What a run that goes on needs beyond the configuration: it changes nothing here. Collective,
+     * counts on the first process. */
     virtual nlohmann::json
     save();
 
+    /** The same taken back, when the configuration and the operator have theirs. Collective.
+     * @throws nlohmann::json::exception, std::out_of_range if @p saved is something else */
     virtual void
     load(const nlohmann::json &saved);
 
@@ -68,7 +77,8 @@ namespace Supple
     set_reactions(const Vector &force);
 
     const Model model;
-    double time = 0.; ///< [s]; the load factor of a static problem
+    double time     = 0.; ///< [s]; the load factor of a static problem
+    bool keeps_past = false;
 
   private:
     Vector reaction;
