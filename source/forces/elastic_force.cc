@@ -65,7 +65,10 @@ namespace Supple
 
 
   void
-  ElasticForce::update_tangent(const Tangent tangent, const Configuration &configuration, double)
+  ElasticForce::update_tangent(const Tangent tangent,
+                               const Configuration &configuration,
+                               double,
+                               double)
   {
     const GhostValues values(configuration.displacement());
     if (!configuration.patches)

@@ -27,6 +27,73 @@ namespace Supple
   }
 
 
+  namespace
+  {
+    Tensor<1, 3>
+    unit_vector(const unsigned int i)
+    {
+      Tensor<1, 3> e;
+      e[i] = 1.;
+      return e;
+    }
+
+
+    /** The derivative of the normal by the place of node w. */
+    Tensor<2, 3>
+    normal_derivative(const std::array<Point<3>, 3> &x,
+                      const Section &section,
+                      const unsigned int w)
+    {
+      const double sign = w == 0 ? -1. : w == 1 ? 1. : 0.;
+      const Tensor<1, 3> opposite =
+        section.plane() ? sign * unit_vector(2) : 0.5 * (x[(w + 1) % 3] - x[(w + 2) % 3]);
+      Tensor<2, 3> derivative;
+      for (unsigned int j = 0; j < 3; ++j)
+        {
+          const Tensor<1, 3> column = cross_product_3d(unit_vector(j), opposite);
+          for (unsigned int i = 0; i < 3; ++i)
+            derivative[i][j] = column[i];
+        }
+      return derivative;
+    }
+
+
+    /** What the width of an edge about the axis adds, which grows with the distance from there. */
+    void
+    add_widening(FaceMatrices &matrices,
+                 const Tensor<1, 3> &normal,
+                 const std::array<double, 3> &p,
+                 const Section &section)
+    {
+      const double slope = section.thickness_at(1.) - section.thickness_at(0.);
+      for (unsigned int v = 0; v < 2; ++v)
+        for (unsigned int w = 0; w < 2; ++w)
+          for (unsigned int b = 0; b < 2; ++b)
+            {
+              const double product = v == w && w == b ? 1. / 4. : 1. / 12.;
+              matrices[v][w] += slope * product * p[b] * outer_product(normal, unit_vector(0));
+            }
+    }
+  } // namespace
+
+
+  FaceMatrices
+  pressure_derivatives(const std::array<Point<3>, 3> &x,
+                       const std::array<double, 3> &p,
+                       const Section &section)
+  {
+    const FaceIntegrals face(x, section);
+    FaceMatrices matrices;
+    for (unsigned int v = 0; v < 3; ++v)
+      for (unsigned int w = 0; w < 3; ++w)
+        for (unsigned int b = 0; b < 3; ++b)
+          matrices[v][w] += face.products[v][b] * p[b] * normal_derivative(x, section, w);
+    if (section.axisymmetric())
+      add_widening(matrices, face.normal, p, section);
+    return matrices;
+  }
+
+
   Faces
   loaded_faces(const Body &body,
                const bool acts,

@@ -94,6 +94,13 @@ namespace Supple
 
 
   bool
+  Forces::loads_follow() const
+  {
+    return any([](const Force &force) { return force.is_load() && !force.is_linear(); });
+  }
+
+
+  bool
   Forces::have_energy() const
   {
     return !any([](const Force &force) { return !force.is_load() && !force.has_energy(); });
@@ -189,6 +196,18 @@ namespace Supple
 
 
   double
+  Forces::work_along(const Configuration &configuration,
+                     const double time,
+                     const Vector &from) const
+  {
+    double work = 0.;
+    for (const auto &force : list)
+      work += force->work_along(configuration, time, from);
+    return Utilities::MPI::sum(work, body.mesh.communicator);
+  }
+
+
+  double
   Forces::work_of_time(const Configuration &configuration,
                        const double time_before,
                        const double time,
@@ -243,11 +262,12 @@ namespace Supple
   Forces::update_tangent(const Tangent tangent,
                          const Configuration &configuration,
                          const double time,
-                         Effort &effort)
+                         Effort &effort,
+                         const double load_factor)
   {
     const PhaseTimer timer(effort, Phase::assembly);
     for (const auto &force : list)
-      force->update_tangent(tangent, configuration, time);
+      force->update_tangent(tangent, configuration, time, force->is_load() ? load_factor : 1.);
   }
 
 

@@ -68,21 +68,23 @@ namespace Supple
         "Pa",
         Range::expressions(1),
         "Pressure that pushes on the surface from outside the body, such as blood on the wall of a "
-        "vein; it may "
-        "depend on t.");
+        "vein; it may depend on t.");
     add(prm,
         "Pressure on",
         pressure_on,
         "none",
         RangeList::boundary_ids(),
         "Where the pressure acts.");
-    add_choice(prm,
-               "Pressure follows",
-               pressure_follows,
-               {{"true", true}, {"false", false}},
-               "Whether the pressure acts on the surface as it is deformed (at the start of each "
-               "step) or as it is at "
-               "rest.");
+    add_choice(
+      prm,
+      "Pressure follows",
+      pressure_follows,
+      {{"true", true}, {"false", false}},
+      "Whether the pressure acts on the surface as it is deformed (in methods with rotations "
+      "frozen in each step as it is at the start of the step) or as it is at rest. Pressure "
+      "that follows grows with the surface: beyond what a body can bear there is no "
+      "equilibrium, and a static scene ends with exit status 2. Linear elasticity "
+      "(Corotation/Rotation = none) bears it only while displacements are small.");
     prm.leave_subsection();
   }
 

@@ -65,7 +65,8 @@ namespace Supple
                    (ml_fails ? ", some of which own no vertex" : "");
           return ml_fails ? Method::cg_jacobi : multigrid(A);
         }
-      const bool constant       = !A.forces.change_operator();
+      const bool constant =
+        !A.forces.change_operator() && (A.has_mass() || !A.forces.loads_follow());
       const Limits limits       = limits_of(A.body.mesh.section.plane(), constant);
       const unsigned int n_dofs = A.body.n_dofs();
       const auto explain        = [&](const std::string &comparison, const unsigned int limit) {

@@ -2,26 +2,32 @@
 
 #include <supple/base/error.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <sstream>
 
 namespace Supple
 {
   StaticEquilibrium::StaticEquilibrium(const Model &model)
     : TimeIntegrator(model, 1.)
+    , loads_follow(model.forces.loads_follow())
+    , operator_changes(model.forces.change_operator() || loads_follow)
   {
     for (Vector *vector : {&residual, &correction, &free_residual, &loads, &working})
       model.body.initialize(*vector);
     force_accuracy = model.forces.round_off(model.configuration);
+    measure_loads();
   }
 
 
   std::string
   StaticEquilibrium::name() const
   {
-    return model.forces.change_operator() ? "static, Newton's method in load steps"
-                                          : "static, one linear solution a load step";
+    return operator_changes ? "static, Newton's method in load steps"
+                            : "static, one linear solution a load step";
   }
 
 
@@ -51,11 +57,31 @@ namespace Supple
 
 
   void
+  StaticEquilibrium::measure_loads()
+  {
+    Vector &displacement = model.configuration.state.displacement;
+    const Vector start   = displacement;
+    displacement         = 0.;
+    model.forces.set_loads(loads, model.configuration, 1.);
+    load_size    = loads.l2_norm();
+    displacement = start;
+  }
+
+
+  double
+  StaticEquilibrium::size_of_forces(const double load_factor) const
+  {
+    const double forces = residual.l2_norm();
+    return load_factor * load_size + (loads_follow ? std::min(forces, forces_at_start) : forces);
+  }
+
+
+  void
   StaticEquilibrium::add_correction(const double load_factor)
   {
     Configuration &configuration = model.configuration;
     Vector &displacement         = configuration.state.displacement;
-    if (!model.forces.change_operator() || !model.forces.have_energy())
+    if (!operator_changes || !model.forces.have_energy())
       {
         displacement.add(model.forces.largest_step(configuration, correction), correction);
         update_residual(load_factor);
@@ -76,7 +102,9 @@ namespace Supple
 
         // Near the equilibrium the energy changes by less than it is accurate; the forces tell
         // more.
-        if (model.forces.energy(configuration, 1., load_factor) <=
+        const double work =
+          loads_follow ? load_factor * model.forces.work_along(configuration, 1., start) : 0.;
+        if (model.forces.energy(configuration, 1., load_factor) - work <=
               energy_before - 1e-4 * part * slope ||
             free_residual.l2_norm() <= imbalance_before)
           return;
@@ -102,7 +130,10 @@ namespace Supple
       }
     try
       {
-        find_equilibrium(load_factor, report);
+        if (loads_follow)
+          find_equilibrium_of_followed(load_factor, report);
+        else
+          find_equilibrium(load_factor, report);
       }
     catch (...)
       {
@@ -161,27 +192,34 @@ namespace Supple
 
 
   void
-  StaticEquilibrium::assemble(const Tangent tangent)
+  StaticEquilibrium::assemble(const Tangent tangent, const double load_factor)
   {
-    model.forces.update_tangent(tangent, model.configuration, 1., model.effort);
+    model.forces.update_tangent(tangent, model.configuration, 1., model.effort, load_factor);
     model.implicit_operator.assemble_stiffness();
     model.solver.prepare(model.configuration.displacement());
   }
 
 
   unsigned int
-  StaticEquilibrium::find_correction()
+  StaticEquilibrium::find_frozen_correction(const double load_factor)
+  {
+    if (model.forces.change_operator() || !prepared)
+      assemble(Tangent::frozen, load_factor);
+    prepared = true;
+    return model.solver.solve(correction, free_residual);
+  }
+
+
+  unsigned int
+  StaticEquilibrium::find_correction(const double load_factor)
   {
     const Tangent choice = model.time.tangent;
-    if (!model.forces.have_energy() || choice == Tangent::frozen)
-      {
-        assemble(Tangent::frozen);
-        return model.solver.solve(correction, free_residual);
-      }
+    if (!operator_changes || !model.forces.have_energy() || choice == Tangent::frozen)
+      return find_frozen_correction(load_factor);
     if (choice != Tangent::definite)
       try
         {
-          assemble(Tangent::consistent);
+          assemble(Tangent::consistent, load_factor);
           const unsigned int n_iterations = model.solver.solve(correction, free_residual);
           if (choice == Tangent::consistent || free_residual * correction > 0.)
             return n_iterations;
@@ -191,7 +229,7 @@ namespace Supple
           if (choice == Tangent::consistent)
             throw;
         }
-    assemble(Tangent::definite);
+    assemble(Tangent::definite, load_factor);
     return model.solver.solve(correction, free_residual);
   }
 
@@ -202,8 +240,41 @@ namespace Supple
     std::ostringstream text;
     text << "Newton's method is not done after " << model.time.newton_limit
          << " iterations: the forces are out of balance by " << imbalance
-         << " of the loads and reactions. More load steps (Time/Steps) may help";
+         << " of the loads and reactions";
+    if (!loads_follow)
+      text << ". More load steps (Time/Steps) may help";
     throw ComputationError(text.str());
+  }
+
+
+  unsigned int
+  StaticEquilibrium::n_inverted() const
+  {
+    return dealii::Utilities::MPI::sum(
+      model.forces.elastic().deformation(model.configuration).inverted,
+      model.body.mesh.communicator);
+  }
+
+
+  void
+  StaticEquilibrium::find_equilibrium_of_followed(const double load_factor, StepReport &report)
+  {
+    const unsigned int n_inverted_before = n_inverted();
+    try
+      {
+        find_equilibrium(load_factor, report);
+        const unsigned int n = n_inverted();
+        if (n > n_inverted_before)
+          throw ComputationError("the forces are in balance only with " + std::to_string(n) +
+                                 (n == 1 ? " cell inside out" : " cells inside out"));
+      }
+    catch (const ComputationError &error)
+      {
+        throw ComputationError("no equilibrium was found: " + std::string(error.what()) +
+                               ". The body may not bear the pressure (Loads/Pressure), which "
+                               "grows with the surface that it follows. A smaller pressure, or "
+                               "more load steps (Time/Steps), may help");
+      }
   }
 
 
@@ -216,14 +287,14 @@ namespace Supple
     if (model.constraints.move())
       model.constraints.set_displacement(model.configuration.state.displacement, load_factor);
     update_residual(load_factor);
+    forces_at_start = residual.l2_norm();
     for (;;)
       {
         if (!all_finite(residual))
           throw ComputationError("the forces are not finite any more");
 
         // What is out of balance is small beside the loads and the reactions, or beside round-off.
-        model.forces.set_loads(loads, model.configuration, 1.);
-        const double size    = load_factor * loads.l2_norm() + residual.l2_norm();
+        const double size    = size_of_forces(load_factor);
         const double balance = free_residual.l2_norm();
         if (linear ? report.newton_iterations == 1
                    : balance <= settings.newton_tolerance * size + force_accuracy)
@@ -231,15 +302,7 @@ namespace Supple
         if (report.newton_iterations == settings.newton_limit)
           throw_not_converged(balance / size);
 
-        if (model.forces.change_operator())
-          report.linear_iterations += find_correction();
-        else
-          {
-            if (!prepared)
-              assemble(Tangent::frozen);
-            prepared = true;
-            report.linear_iterations += model.solver.solve(correction, free_residual);
-          }
+        report.linear_iterations += find_correction(load_factor);
         add_correction(load_factor);
         ++report.newton_iterations;
         ++model.effort.newton_iterations;

@@ -173,7 +173,8 @@ namespace Supple
         "none",
         Range::between(0, 1),
         "A static step is done when the forces out of balance are below this fraction of the loads "
-        "and reactions; a stage of a fixed step when its correction is below this fraction of the "
+        "on the body at rest and of the reactions; a stage of a fixed step when its correction is "
+        "below this fraction of the "
         "motion "
         "or of 1 % of the body's diameter.");
     add(prm,

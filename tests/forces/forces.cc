@@ -347,6 +347,130 @@ namespace
   }
 
 
+  /** A body that pressure pushes on, in static equilibrium or on its way there. */
+  Parameters
+  pressed(const std::string &mesh, const std::string &pressure, const std::string &boundaries)
+  {
+    std::ofstream("pressed.prm") << mesh << R"(
+      subsection Material
+        set Young modulus = 1e6
+      end
+      subsection Time
+        set Problem = static
+      end
+      subsection Loads
+)"
+                                 << "set Pressure = " << pressure
+                                 << "\nset Pressure on = " << boundaries << "\nend\n";
+    return read_scene("pressed.prm");
+  }
+
+
+  /** Along one direction: the operator, the derivative of the forces, and both as quadratic forms.
+   */
+  void
+  compare_stiffness(const Parameters &parameters, const bool is_symmetric, const double part)
+  {
+    LinkedBody loaded(parameters);
+    Vector w, product, from_matrix, expected, down;
+    for (Vector *vector : {&w, &product, &from_matrix, &expected, &down})
+      loaded.body.initialize(*vector);
+    Vector &u                = loaded.configuration.state.displacement;
+    const unsigned int n_dim = loaded.body.mesh.section.plane() ? 2 : 3;
+    for (unsigned int node = 0; node < loaded.body.n_owned; ++node)
+      for (unsigned int i = 0; i < n_dim; ++i)
+        {
+          u.local_element(3 * node + i) = 0.1 * std::sin(5. * node + 2. * i);
+          w.local_element(3 * node + i) = std::cos(3. * node + i);
+        }
+    const auto forces_at = [&](const double step, Vector &f) {
+      u.add(step, w);
+      loaded.configuration.update_rotations(loaded.effort);
+      loaded.forces.set_force(f, loaded.configuration, 1., loaded.effort, part);
+      u.add(-step, w);
+    };
+    forces_at(1e-5, expected);
+    forces_at(-1e-5, down);
+    expected -= down;
+    expected *= -1. / 2e-5;
+
+    loaded.configuration.update_rotations(loaded.effort);
+    loaded.forces.update_tangent(
+      Tangent::consistent, loaded.configuration, 1., loaded.effort, part);
+    loaded.forces.add_product(loaded.configuration, {0., 0., 1.}, w.begin(), product.begin());
+    loaded.A.assemble_stiffness();
+    loaded.A.vmult(from_matrix, w);
+    from_matrix -= product;
+    report("  matrix and product", from_matrix.l2_norm() / product.l2_norm(), 1e-12);
+    report("  w K w", std::abs((product * w) / (expected * w) - 1.), 1e-7);
+    expected -= product;
+    const double difference = expected.l2_norm() / product.l2_norm();
+    if (is_symmetric)
+      report("  K w", difference, 1e-7);
+    else
+      report_larger("  K w, without its skew part", difference, 1e-4);
+  }
+
+
+  void
+  test_stiffness_of_pressure()
+  {
+    std::printf("The operator with pressure that follows, against differences of the forces\n");
+    const std::string box  = R"(
+      subsection Mesh
+        set Box size = 1, 2, 1
+        set Box cubes = 2, 3, 2
+      end
+)";
+    const std::string ring = R"(
+      subsection Mesh
+        set Shape = rectangle
+        set Rectangle origin = 1, 0
+        set Rectangle size = 1, 2
+        set Rectangle squares = 2, 4
+      end
+      subsection Plane
+        set Model = )";
+    std::printf(" all around\n");
+    compare_stiffness(pressed(box, "1e6", "0, 1, 2, 3, 4, 5"), true, 1.);
+    std::printf(" all around, a part of it\n");
+    compare_stiffness(pressed(box, "1e6", "0, 1, 2, 3, 4, 5"), true, 0.3);
+    std::printf(" that varies, on two sides\n");
+    compare_stiffness(pressed(box, "1e6*(1 + x*y + t)", "1, 3"), false, 1.);
+    for (const std::string model : {"plane strain", "axisymmetric"})
+      {
+        std::printf(" all around, %s\n", model.c_str());
+        compare_stiffness(pressed(ring + model + "\nend\n", "1e6", "0, 1, 2, 3"), true, 1.);
+      }
+  }
+
+
+  void
+  test_work_of_pressure()
+  {
+    std::printf("The work of pressure that follows, against many short ways\n");
+    LinkedBody loaded(pressed("", "1e6*(1 + y)", "1, 3"));
+    loaded.bend();
+    Vector &u        = loaded.configuration.state.displacement;
+    const Vector end = u;
+    Vector start = end, loads = end;
+    start *= -0.5;
+    Vector way = end;
+    way -= start;
+    const double work    = loaded.forces.work_along(loaded.configuration, 1., start);
+    const unsigned int n = 1000;
+    double sum           = 0.;
+    for (unsigned int k = 0; k < n; ++k)
+      {
+        u = start;
+        u.add((k + 0.5) / n, way);
+        loaded.forces.set_loads(loads, loaded.configuration, 1.);
+        sum += (loads * way) / n;
+      }
+    report("  difference", std::abs(work / sum - 1.), 1e-6);
+  }
+
+
   void
   test_equilibrium()
   {
@@ -453,6 +577,8 @@ main(int argc, char **argv)
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   test_energy();
   test_operator();
+  test_stiffness_of_pressure();
+  test_work_of_pressure();
   test_equilibrium();
   test_configuration();
 }

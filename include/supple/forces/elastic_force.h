@@ -84,7 +84,10 @@ namespace Supple
     }
 
     void
-    update_tangent(Tangent tangent, const Configuration &configuration, double time) override;
+    update_tangent(Tangent tangent,
+                   const Configuration &configuration,
+                   double time,
+                   double part) override;
 
     /** Whether the tangent is free of derivatives of the rotations. */
     bool

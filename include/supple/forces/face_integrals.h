@@ -35,6 +35,23 @@ namespace Supple
   };
 
 
+  /** A matrix for each pair of a face's nodes. */
+  using FaceMatrices = std::array<std::array<dealii::Tensor<2, 3>, 3>, 3>;
+
+
+  /**
+   * Of a pressure on a face that moves: the entry (v, w) is the derivative of p n N_v, integrated
+   * over the face, by the place of node w [N/m]. Load stiffness: Schweizerhof and Ramm, Computers &
+   * Structures 18 (1984) 1099.
+   * @param x places of the face's nodes [m]
+   * @param p pressure there [Pa]
+   */
+  FaceMatrices
+  pressure_derivatives(const std::array<dealii::Point<3>, 3> &x,
+                       const std::array<double, 3> &p,
+                       const Section &section);
+
+
   /** The faces that a load of this name in subsection Loads acts on.
    * @throws InputError for a load that acts nowhere, or boundaries that the body does not have */
   Faces

@@ -48,7 +48,7 @@ namespace Supple
     virtual bool
     is_linear() const = 0;
 
-    /** Whether its derivatives are part of the operator. */
+    /** Whether its derivatives are part of the frozen and the definite operator too. */
     virtual bool
     has_tangent() const
     {
@@ -66,10 +66,17 @@ namespace Supple
     virtual void
     add_force(const Configuration &configuration, double time, double *f) const = 0;
 
-    /** This process's part of the energy [J]. A load without energy gives that of a force that
-     * stays what it is, -f.u, for the line search. */
+    /** This process's part of the energy [J]; zero for a load without energy. */
     virtual double
     energy(const Configuration &configuration, double time) const = 0;
+
+    /** The work that a load without energy does on the straight way from a displacement [m] to that
+     * of the configuration [J]; this process's part. */
+    virtual double
+    work_along(const Configuration &, double /*time*/, const Vector & /*from*/) const
+    {
+      return 0.;
+    }
 
     /** The work that a change of its potential in time does on the body from @p time_before on,
      * with the state at the start of the step taken by @p weight and that at the end by the rest
@@ -112,9 +119,11 @@ namespace Supple
     {
     }
 
-    /** Takes the derivatives at a configuration; kept until called again. */
+    /** Takes the derivatives at a configuration; kept until called again. Those of a force without
+     * has_tangent() are part of the consistent operator alone.
+     * @param part of the force that acts: in static scenes loads grow */
     virtual void
-    update_tangent(Tangent, const Configuration &, double /*time*/)
+    update_tangent(Tangent, const Configuration &, double /*time*/, double /*part*/)
     {
     }
 

@@ -60,6 +60,10 @@ namespace Supple
     bool
     others_have_tangent() const;
 
+    /** Whether a load depends on the displacement. */
+    bool
+    loads_follow() const;
+
     /** Whether all forces but loads have an energy. */
     bool
     have_energy() const;
@@ -92,9 +96,15 @@ namespace Supple
              double load_factor,
              Deformation &deformation) const;
 
-    /** The energy that equilibrium makes least, with this part of the loads [J]; collective. */
+    /** The energy that equilibrium makes least, with this part of those loads that have one [J];
+     * collective. */
     double
     energy(const Configuration &configuration, double time, double load_factor) const;
+
+    /** The work of loads without energy on the straight way from a displacement [m] to that of the
+     * configuration [J]; collective. */
+    double
+    work_along(const Configuration &configuration, double time, const Vector &from) const;
 
     /** As Force::work_of_time(), on all processes [J]; collective. */
     double
@@ -119,12 +129,13 @@ namespace Supple
     void
     connect(const SymmetricPattern &pattern);
 
-    /** Takes the derivatives of all forces at a configuration. */
+    /** Takes the derivatives of all forces at a configuration, of loads a part. */
     void
     update_tangent(Tangent tangent,
                    const Configuration &configuration,
                    double time,
-                   Effort &effort);
+                   Effort &effort,
+                   double load_factor = 1.);
 
     /** y -= (velocity df/dv + displacement df/du) w */
     void

@@ -11,8 +11,11 @@ namespace Supple
 {
   /**
    * Pressure p(X, t) [Pa] on boundaries: -p n dA, with the pressure interpolated on each face, and
-   * the face where the displacement takes it or, if it does not follow, as it is at rest. Its
-   * derivative by the displacement is no part of the operator.
+   * the face where the displacement takes it or, if it does not follow, as it is at rest.
+   *
+   * Its derivative by the displacement is part of the consistent operator, symmetric face by face.
+   * What that takes away of the whole lies on the edge of the loaded boundaries and where the
+   * pressure varies. It may be indefinite: frozen and definite operators go without it.
    */
   class Pressure : public Load
   {
@@ -42,7 +45,48 @@ namespace Supple
       return !follows;
     }
 
+    /** Of pressure that follows zero. */
+    double
+    energy(const Configuration &configuration, const double time) const override
+    {
+      return follows ? 0. : Load::energy(configuration, time);
+    }
+
+    double
+    work_along(const Configuration &configuration, double time, const Vector &from) const override;
+
+    void
+    connect(const SymmetricPattern &pattern) override;
+
+    void
+    update_tangent(Tangent tangent,
+                   const Configuration &configuration,
+                   double time,
+                   double part) override;
+
+    void
+    add_product(const Configuration &configuration,
+                const TangentFactors &factors,
+                const double *w,
+                double *y) const override;
+
+    void
+    add_tangent(const Configuration &configuration,
+                const TangentFactors &factors,
+                SymmetricBlockMatrix &A) const override;
+
   private:
+    /** The nodes of a face, where it is loaded. */
+    struct LoadedFace
+    {
+      std::array<dealii::Point<3>, 3> x; ///< places [m]
+      std::array<double, 3> p;           ///< [Pa]
+    };
+
+    /** @param u displacement of all local nodes */
+    LoadedFace
+    loaded_face(const std::array<unsigned int, 3> &nodes, const double *u, double time) const;
+
     const Vector &
     force_at(const Configuration &configuration, double time) const override;
 
@@ -53,6 +97,8 @@ namespace Supple
     const Expression pressure;
     const bool follows;
     const Faces faces;
+    std::vector<std::array<std::size_t, 3>> places; ///< of nodes v and v + 1 of a face in matrices
+    std::vector<FaceMatrices> stiffness;            ///< of each face, symmetric; none: zero
     mutable Vector force;
     mutable double force_time = 0.; ///< of the force that is kept
   };

@@ -12,7 +12,11 @@ namespace Supple
    * Each step is Newton's method with the consistent tangent of polar rotations; where that does
    * not lead downhill in the energy W(u) - s f.u, with its definite projection, which does. A line
    * search makes sure that a correction does not go too far. Linear elasticity needs one
-   * correction, and one operator for all steps.
+   * correction, and one operator for all steps, unless a load follows the body.
+   *
+   * What is out of balance is measured by the loads on the body at rest and by the reactions. Those
+   * to a load that follows grow with the displacement without bound: they count up to the forces at
+   * the start of the step.
    */
   class StaticEquilibrium : public TimeIntegrator
   {
@@ -37,25 +41,47 @@ namespace Supple
     void
     update_residual(double load_factor);
 
-    /** Adds as much of the correction as lowers the energy W(u) - s f.u. */
+    /** Keeps the size of the loads on the body at rest. */
+    void
+    measure_loads();
+
+    /** Loads at rest and reactions, which the forces out of balance are compared with [N]. */
+    double
+    size_of_forces(double load_factor) const;
+
+    /** Adds as much of the correction as lowers the energy W(u) - s f.u, with the work of loads
+     * that follow in place of f.u. */
     void
     add_correction(double load_factor);
 
     void
-    assemble(Tangent tangent);
+    assemble(Tangent tangent, double load_factor);
 
     /** Sets the correction. @return the iterations of the linear solver */
     unsigned int
-    find_correction();
+    find_correction(double load_factor);
+
+    /** The same by the frozen operator, made once if it never changes. */
+    unsigned int
+    find_frozen_correction(double load_factor);
 
     /** @throws ComputationError: Newton's method is not done, and what may help
      * @param imbalance relative to loads and reactions */
     [[noreturn]] void
     throw_not_converged(double imbalance) const;
 
+    /** Cells inside out; collective. */
+    unsigned int
+    n_inverted() const;
+
     /** Newton's iterations of one load step. */
     void
     find_equilibrium(double load_factor, StepReport &report);
+
+    /** The same with a load that follows the body.
+     * @throws ComputationError, for an equilibrium with more cells inside out than before too */
+    void
+    find_equilibrium_of_followed(double load_factor, StepReport &report);
 
     /** Sets reactions, and the forces that are counted as work, in equilibrium at a load factor.
      * @param imbalance s f - f_int(u) */
@@ -71,10 +97,14 @@ namespace Supple
     double
     work_of_growth(double growth);
 
-    double force_accuracy = 0.; ///< what round-off leaves of forces in balance [N]
-    bool prepared         = false;
-    bool started          = false; ///< forces at the end of the last step are known
-    unsigned int n_done   = 0;     ///< load steps
+    const bool loads_follow;
+    const bool operator_changes;
+    double force_accuracy  = 0.; ///< what round-off leaves of forces in balance [N]
+    double load_size       = 0.; ///< of the loads on the body at rest [N]
+    double forces_at_start = 0.; ///< size of the forces at the start of the step [N]
+    bool prepared          = false;
+    bool started           = false; ///< forces at the end of the last step are known
+    unsigned int n_done    = 0;     ///< load steps
     Vector residual, correction, free_residual, loads, working;
   };
 } // namespace Supple
