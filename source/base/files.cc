@@ -81,13 +81,13 @@ namespace Supple
 
 
     void
-    sync_files_of(const std::filesystem::path &folder)
+    sync_files_of(const std::filesystem::path &folder, const std::filesystem::file_time_type since)
     {
       std::error_code problem;
       for (std::filesystem::directory_iterator entry(folder, problem), end;
            !problem && entry != end;
            entry.increment(problem))
-        if (entry->is_regular_file(problem))
+        if (entry->is_regular_file(problem) && entry->last_write_time(problem) >= since)
           sync(entry->path());
       sync(folder);
     }
@@ -117,10 +117,12 @@ namespace Supple
 
 
   void
-  sync_folder(const std::string &folder, const std::string &subfolder)
+  sync_folder(const std::string &folder,
+              const std::string &subfolder,
+              const std::filesystem::file_time_type since)
   {
-    sync_files_of(std::filesystem::path(folder) / subfolder);
-    sync_files_of(folder);
+    sync_files_of(std::filesystem::path(folder) / subfolder, since);
+    sync_files_of(folder, since);
   }
 
 

@@ -136,7 +136,8 @@ namespace Supple
   void
   Checkpoint::write(const unsigned int step,
                     const std::vector<const Vector *> &vectors,
-                    const Json &rest)
+                    const Json &rest,
+                    const bool in_haste)
   {
     Json all;
     for (const Vector *vector : vectors)
@@ -151,11 +152,24 @@ namespace Supple
         std::error_code problem; // write_whole_file() speaks of a folder that is gone
         if (whole_content(file)) // a damaged one must not take the place of a whole one
           std::filesystem::rename(file, previous_file, problem);
-        sync_folder(std::filesystem::path(file).parent_path(), "solution"); // what it goes on with
+        if (!in_haste)
+          sync_results();
         write_durable_file(file, head + checksum(content) + content);
+        if (in_haste)
+          sync_results();
       }
     last_step = step;
     last_time = std::chrono::steady_clock::now();
+  }
+
+
+  void
+  Checkpoint::sync_results()
+  {
+    // Clocks of file systems tick seldom.
+    const auto now = std::filesystem::file_time_type::clock::now() - std::chrono::seconds(5);
+    sync_folder(std::filesystem::path(file).parent_path(), "solution", synced);
+    synced = now;
   }
 
 

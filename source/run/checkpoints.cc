@@ -15,6 +15,25 @@ namespace Supple
 {
   using Json = nlohmann::json;
 
+  namespace
+  {
+    /** What follows the first @p mark of the last line of a file that has one; 0 if none has. */
+    double
+    last_number_after(const std::string &mark, const std::string &file)
+    {
+      std::ifstream stream(file);
+      double number = 0.;
+      for (std::string line; std::getline(stream, line);)
+        {
+          const auto place = line.find(mark);
+          if (place != std::string::npos)
+            number = std::strtod(line.c_str() + place + mark.size(), nullptr);
+        }
+      return number;
+    }
+  } // namespace
+
+
   Checkpoints::Checkpoints(const std::string &folder,
                            Problem &problem,
                            TimeIntegrator &integrator,
@@ -92,14 +111,10 @@ namespace Supple
   Checkpoints::require_later_end() const
   {
     on_first_process(problem.mesh.communicator, [this] {
-      double done = course.now.time;
-      std::ifstream history(folder + "/" + HistoryTable::files()[0]);
-      std::string line, last;
-      while (std::getline(history, line))
-        last = line;
-      const auto begin = last.find(',') + 1;
-      const double row = std::strtod(last.c_str() + std::min(begin, last.size()), nullptr); // time
-      done             = std::max(done, row);
+      const double done =
+        std::max({course.now.time,
+                  last_number_after(",", folder + "/" + HistoryTable::files()[0]),
+                  last_number_after("timestep=\"", folder + "/" + Frames::files()[0])});
       if (done <= integrator.end * (1. + 1e-9))
         return;
       std::ostringstream text;
@@ -132,7 +147,7 @@ namespace Supple
 
 
   void
-  Checkpoints::write()
+  Checkpoints::write(const bool in_haste)
   {
     const PhaseTimer timer(effort, Phase::output);
     listeners.save(*kept);
@@ -144,7 +159,7 @@ namespace Supple
     if (diagnostics)
       rest["diagnostics"] = diagnostics->save();
     const auto vectors = kept_vectors();
-    checkpoint.write(course.now.step, {vectors.begin(), vectors.end()}, rest);
+    checkpoint.write(course.now.step, {vectors.begin(), vectors.end()}, rest, in_haste);
   }
 
 
@@ -158,7 +173,7 @@ namespace Supple
   Checkpoints::after_step(const Observation &now)
   {
     if (problem.parameters.checkpoint.wanted() && checkpoint.due(now.measurement.step))
-      write();
+      write(false);
     return true;
   }
 
@@ -167,6 +182,6 @@ namespace Supple
   Checkpoints::interrupted(const Observation & /* now */)
   {
     if (problem.parameters.checkpoint.wanted())
-      write();
+      write(true);
   }
 } // namespace Supple

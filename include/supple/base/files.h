@@ -1,6 +1,7 @@
 #ifndef supple_files_h
 #define supple_files_h
 
+#include <filesystem>
 #include <functional>
 #include <mpi.h>
 #include <string>
@@ -32,9 +33,11 @@ namespace Supple
 
 
   /** Has the system write to the disk what it still keeps of the files in a folder and in its
-   * subfolder of this name. */
+   * subfolder of this name, but for those that have not been written since an instant. */
   void
-  sync_folder(const std::string &folder, const std::string &subfolder);
+  sync_folder(const std::string &folder,
+              const std::string &subfolder,
+              std::filesystem::file_time_type since = std::filesystem::file_time_type::min());
 
 
   /**

@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <chrono>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,11 +43,17 @@ namespace Supple
     bool
     due(unsigned int step) const;
 
-    /** @param rest what the other rooms keep; counts on the first process. @throws WriteError */
+    /**
+     * The results that a run would go on with are on the disk before it is; after it if the run is
+     * to end at once, for a loss of power is rarer than a second signal then.
+     * @param rest what the other rooms keep; counts on the first process
+     * @throws WriteError
+     */
     void
     write(unsigned int step,
           const std::vector<const Vector *> &vectors,
-          const nlohmann::json &rest);
+          const nlohmann::json &rest,
+          bool in_haste);
 
     /**
      * The rest, and the vectors set, if there is a file. Of the vectors those at the end that it
@@ -81,6 +88,9 @@ namespace Supple
     std::string
     identity() const;
 
+    void
+    sync_results();
+
     /** Of the first file that is whole; empty if there is none. On the first process. */
     std::string
     read_content();
@@ -98,6 +108,7 @@ namespace Supple
     bool damaged           = false;
     unsigned int last_step = 0; ///< with a checkpoint
     std::chrono::steady_clock::time_point last_time;
+    std::filesystem::file_time_type synced = std::filesystem::file_time_type::min();
   };
 } // namespace Supple
 

@@ -60,7 +60,7 @@ namespace Supple
     take(const nlohmann::json &saved);
 
     void
-    write();
+    write(bool in_haste);
 
     /** Those of the state, and those of the listeners. */
     std::vector<Vector *>
