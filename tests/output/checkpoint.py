@@ -229,6 +229,6 @@ for steps in (20, 21):
     status, error = run("fewer", {**settings, "Time/Steps": steps})
     runner.check(status == 0 and len(runner.Results(folder / "fewer").history()) == steps + 1, f"{steps} steps: {error}")
 frames_alone = {**settings, "Output/History": "false", "Output/Frames": "every"}
-status, error = run("frames", {**frames_alone, "Time/Steps": 20})
-status, error = run("frames", {**frames_alone, "Time/Steps": 15, "Checkpoint/Resume": "auto"})
-runner.check(status == 1 and "Time/Steps" in error and len(list((folder / "frames" / "solution").iterdir())) == 21, f"frames alone: {error}")
+status, error = run("frames alone", {**frames_alone, "Time/Steps": 20})
+status, error = run("frames alone", {**frames_alone, "Time/Steps": 15, "Checkpoint/Resume": "auto"})
+runner.check(status == 1 and "Time/Steps" in error and len(list((folder / "frames alone" / "solution").iterdir())) == 21, f"frames alone: {error}")
