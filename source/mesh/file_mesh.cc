@@ -202,7 +202,11 @@ namespace Supple
     {
       std::map<std::string, unsigned int> unique;
       for (const auto &[name, ids] : names)
-        if (ids.size() == 1)
+        if (name.find_first_of("#,;:") != std::string::npos)
+          mesh.warnings.push_back("The group " + name +
+                                  " has a #, comma, semicolon or colon in its name, which mean "
+                                  "something else in a parameter file; give its id.");
+        else if (ids.size() == 1)
           unique.emplace(name, *ids.begin());
         else
           mesh.warnings.push_back("Several groups have the name " + name +

@@ -1,11 +1,17 @@
 #include <supple/mesh/gmsh_reader.h>
 
 #include <supple/base/error.h>
-#include <supple/mesh/msh_elements.h>
+#include <supple/mesh/msh_reader.h>
+
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <cstring>
+#include <fstream>
 #include <gmsh.h>
+#include <set>
 
 namespace Supple
 {
@@ -91,8 +97,7 @@ namespace Supple
                  const int type,
                  const std::vector<std::size_t> &tags,
                  const std::vector<std::size_t> &nodes,
-                 const std::vector<unsigned int> &groups,
-                 const MshElements &of_file)
+                 const std::vector<unsigned int> &groups)
     {
       std::string name;
       int dimension, order, n_nodes, n_primary_nodes;
@@ -108,18 +113,80 @@ namespace Supple
         {
           FileMesh::Element element{tags[e], {}, groups};
           std::copy_n(nodes.begin() + n_nodes * e, n_nodes, element.vertices.begin());
-          of_file.find(element.vertices, element.ids);
           mesh.elements[dimension].push_back(std::move(element));
         }
     }
 
 
+    /** How many elements the file announces, in version 4; 0 if it doesn't say. */
+    std::size_t
+    n_announced(const std::string &file, const MshFormat &format)
+    {
+      std::ifstream stream(file, std::ios::binary);
+      std::size_t n_blocks = 0, n_elements = 0;
+      for (std::string line; std::getline(stream, line);)
+        {
+          if (dealii::Utilities::trim(line) != "$Elements")
+            continue;
+          if (!format.binary)
+            stream >> n_blocks >> n_elements;
+          else
+            {
+              std::array<char, 16> bytes{};
+              stream.read(bytes.data(), bytes.size());
+              if (format.swapped)
+                std::reverse(bytes.begin() + 8, bytes.end());
+              std::memcpy(&n_elements, bytes.data() + 8, 8);
+            }
+          break;
+        }
+      return n_elements;
+    }
+
+
+    /** Of a mesh that was cut into parts, the parts that are named, and those that have cells. */
+    class Parts
+    {
+    public:
+      void
+      add(const int dimension, const int entity, const bool has_elements)
+      {
+        std::vector<int> parts;
+        gmsh::model::getPartitions(dimension, entity, parts);
+        named.insert(parts.begin(), parts.end());
+        if (has_elements && dimension > of_cells)
+          {
+            of_cells = dimension;
+            with_cells.clear();
+          }
+        if (has_elements && dimension == of_cells)
+          with_cells.insert(parts.begin(), parts.end());
+      }
+
+      /** A file may hold one of several parts. */
+      void
+      require_all() const
+      {
+        if (with_cells.size() < named.size())
+          throw InputError("it holds " + std::to_string(with_cells.size()) + " of " +
+                           std::to_string(named.size()) +
+                           " parts of a mesh. Save all parts in one file (in Gmsh: "
+                           "Mesh.PartitionSplitMeshFiles = 0).");
+      }
+
+    private:
+      int of_cells = 0; ///< their dimension
+      std::set<int> named, with_cells;
+    };
+
+
     /** Of each entity by itself: elements of several entities may have the same number, and those
      * of another part of a partitioned mesh that are next to one (ghosts) are given twice. */
     void
-    read_elements(FileMesh &mesh, const MshElements &of_file)
+    read_elements(FileMesh &mesh, const std::size_t n_announced)
     {
       std::size_t n_loaded = 0;
+      Parts parts;
       gmsh::vectorpair entities;
       gmsh::model::getEntities(entities);
       for (const auto &[dimension, entity] : entities)
@@ -127,21 +194,26 @@ namespace Supple
           std::string kind;
           gmsh::model::getType(dimension, entity, kind);
           if (kind.rfind("Ghost", 0) == 0)
-            continue;
+            {
+              parts.add(dimension, entity, false);
+              continue;
+            }
           std::vector<int> types;
           std::vector<std::vector<std::size_t>> tags, nodes;
           gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
+          parts.add(dimension, entity, !types.empty());
           const auto groups = groups_of(dimension, entity);
           for (std::size_t t = 0; t < types.size(); ++t)
             {
               n_loaded += tags[t].size();
               if (types[t] != gmsh_point)
-                add_elements(mesh, types[t], tags[t], nodes[t], groups, of_file);
+                add_elements(mesh, types[t], tags[t], nodes[t], groups);
             }
         }
+      parts.require_all();
       // Gmsh drops elements whose number is taken.
-      if (n_loaded < of_file.n_announced)
-        throw InputError("the file announces " + std::to_string(of_file.n_announced) +
+      if (n_loaded < n_announced)
+        throw InputError("the file announces " + std::to_string(n_announced) +
                          " elements, of which only " + std::to_string(n_loaded) +
                          " can be read. Each element needs a number of its own; meshio convert "
                          "(package meshio-tools) numbers them anew.");
@@ -167,10 +239,13 @@ namespace Supple
   FileMesh
   read_gmsh(const std::string &file)
   {
+    const MshFormat format = msh_format_of(file);
+    if (format.version < 3.)
+      return read_msh(file);
     const GmshSession session(file);
     FileMesh mesh;
     read_vertices(mesh);
-    read_elements(mesh, read_msh_elements(file));
+    read_elements(mesh, n_announced(file, format));
     read_names(mesh);
     const std::string complaint = GmshSession::last_complaint();
     if (!complaint.empty())

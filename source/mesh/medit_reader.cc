@@ -161,7 +161,12 @@ namespace Supple
           return known.keyword == keyword;
         });
         if (keyword == "dimension")
-          dimension = words.count("dimensions") == 2 ? 2 : 3;
+          {
+            dimension = words.count("dimensions");
+            if (dimension != 2 && dimension != 3)
+              throw InputError("its dimension is " + std::to_string(dimension) +
+                               "; there should be 2 or 3.");
+          }
         else if (keyword == "vertices")
           read_vertices(mesh, words, dimension);
         else if (kind != kinds.end())

@@ -13,14 +13,17 @@ namespace Supple
 {
   namespace
   {
-    const std::string read_are = "Read are .msh (Gmsh), .vtk, .unv, .mesh, .bdf and .nas.";
+    const std::string read_are = "Read are .msh (Gmsh), .vtk, .vtu, .unv, .mesh, .bdf and .nas.";
 
-    const std::set<std::string> readable = {".msh", ".vtk", ".unv", ".mesh", ".bdf", ".nas"};
+    const std::set<std::string> readable =
+      {".msh", ".vtk", ".vtu", ".unv", ".mesh", ".bdf", ".nas"};
 
     const std::set<std::string> surfaces = {".stl", ".obj", ".ply", ".off"};
 
+    const std::set<std::string> of_nastran = {".dat", ".fem", ".inc", ".pch", ".blk"};
+
     const std::map<std::string, std::string> convertible = {
-      {".vtu", "VTK XML"},
+      {".meshb", "binary Medit"},
       {".inp", "Abaqus or AVS"},
       {".ele", "TetGen, which needs the .node file beside it"},
       {".node", "TetGen, which needs the .ele file beside it"},
@@ -50,6 +53,24 @@ namespace Supple
       const std::string to = std::filesystem::path(file).replace_extension(".msh").string();
       return "Convert it (package meshio-tools) by\n  meshio convert " + shell_word(file) + " " +
              shell_word(to) + " --output-format gmsh22\nand take the ending .msh in Mesh/File.";
+    }
+
+
+    /** What follows # in a line of a parameter file is not read. */
+    std::string
+    hint_of_comment(const std::string &file)
+    {
+      namespace fs = std::filesystem;
+      const fs::path path(file);
+      std::error_code unreadable;
+      for (const auto &entry :
+           fs::directory_iterator(path.has_parent_path() ? path.parent_path() : fs::path("."),
+                                  unreadable))
+        if (const std::string name = entry.path().filename().string();
+            name.rfind(path.filename().string() + "#", 0) == 0)
+          return " There is " + name +
+                 ", but # begins a comment in a parameter file: give the file another name.";
+      return "";
     }
 
 
@@ -99,11 +120,23 @@ namespace Supple
     require_legacy_vtk(const std::string &line, const std::string &file)
     {
       const std::string head = "# vtk DataFile Version ";
+      if (line.rfind("<", 0) == 0)
+        throw InputError("this is one of VTK's XML files: give it the ending .vtu.");
       if (line.rfind(head, 0) != 0)
         throw InputError("this is not a legacy VTK file: such a file begins with '" + head + "'.");
       if (line.size() > head.size() && line[head.size()] > '5')
         throw InputError("this is legacy VTK of version " + line.substr(head.size()) +
                          "; only versions up to 5.1 are read. " + how_to_convert(file));
+    }
+
+
+    void
+    require_xml(const std::string &line)
+    {
+      if (line.rfind("# vtk DataFile Version ", 0) == 0)
+        throw InputError("this is a legacy VTK file: give it the ending .vtk.");
+      if (line.rfind("<", 0) != 0)
+        throw InputError("this is none of VTK's XML files: such a file begins with <VTKFile.");
     }
   } // namespace
 
@@ -116,7 +149,7 @@ namespace Supple
     if (fs::is_directory(file, unreadable))
       throw InputError("this is a folder.");
     if (!fs::is_regular_file(file, unreadable))
-      throw InputError("there is no such file.");
+      throw InputError("there is no such file." + hint_of_comment(file));
 
     const std::string ending = ending_of(file);
     if (surfaces.count(ending) > 0)
@@ -126,6 +159,14 @@ namespace Supple
     const auto found = convertible.find(ending);
     if (found != convertible.end())
       throw InputError("this format (" + found->second + ") is not read. " + how_to_convert(file));
+    if (of_nastran.count(ending) > 0)
+      throw InputError(
+        "the ending " + ending +
+        " is of many formats. If it is Nastran's bulk data, give it the ending .bdf.");
+    if (ending == ".pvtu")
+      throw InputError(
+        "a .pvtu file names the files of its parts. Save the mesh in one file (in "
+        "ParaView: the filter Merge Blocks, then Save Data as .vtu).");
     if (readable.count(ending) == 0)
       throw InputError("the ending " + ending + " is not known. " + read_are);
 
@@ -138,5 +179,7 @@ namespace Supple
       require_gmsh(line);
     else if (ending == ".vtk")
       require_legacy_vtk(line, file);
+    else if (ending == ".vtu")
+      require_xml(line);
   }
 } // namespace Supple

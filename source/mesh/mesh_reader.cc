@@ -24,6 +24,8 @@ namespace Supple
       const std::string ending = std::filesystem::path(file).extension().string();
       if (ending == ".vtk")
         return read_legacy_vtk(file);
+      if (ending == ".vtu")
+        return read_vtu(file);
       if (ending == ".unv")
         return read_universal(file);
       if (ending == ".mesh")

@@ -47,7 +47,7 @@ namespace Supple
         const std::string text = field(i);
         if (text.empty() && preset > 0)
           return preset;
-        if (text.empty() || text.size() > 9 ||
+        if (text.empty() || text.size() > 18 ||
             text.find_first_not_of("0123456789") != std::string::npos)
           refuse("'" + text + "' in field " + std::to_string(i + 2) + " is no whole number.");
         return std::stoul(text);
@@ -214,13 +214,15 @@ namespace Supple
         list.back().fields.insert(list.back().fields.end(), fields.begin() + 1, fields.end());
       }
 
-      /** A line goes on with the card before it, unless it is marked as one of another. */
+      /** A line goes on with the card before it, unless it is marked as one of another. The first
+       * character of a mark may be any. */
       static void
       require_order(std::string mark, std::string name, const std::string &place)
       {
+        const std::string any = mark.empty() ? "" : trim(mark.substr(1));
         for (std::string *text : {&mark, &name})
           *text = text->empty() ? "" : trim(text->substr((*text)[0] == '+' || (*text)[0] == '*'));
-        if (!mark.empty() && !name.empty() && mark != name)
+        if (!mark.empty() && !name.empty() && mark != name && any != name)
           throw InputError(place + ": the continuation line is not that of the line before it ('" +
                            name + "' and '" + mark + "').");
       }
@@ -270,7 +272,7 @@ namespace Supple
           read_element(card, 3, 10, "Tetrahedron");
         else if (card.name == "CTRIA3" || card.name == "CTRIAR")
           read_element(card, 2, 3, "Triangle");
-        else if (begins(card, {"CBAR", "CBEAM", "CROD", "CTUBE"}))
+        else if (std::set<std::string>{"CBAR", "CBEAM", "CROD", "CTUBE"}.count(card.name) > 0)
           read_element(card, 1, 2, "Line");
         else if (begins(card, {"CHEX", "CPENTA", "CPYRA", "CTET"}))
           ++mesh.others[3][card.name];
@@ -305,7 +307,12 @@ namespace Supple
           card.refuse("the element " + card.field(0) +
                       " is given twice. Each element needs a number of its own.");
         if (const std::size_t property = card.whole_number(1, element.number))
-          element.ids.push_back(property);
+          {
+            if (property > 4000000000)
+              card.refuse("the number of the property, " + std::to_string(property) +
+                          ", is too large.");
+            element.ids.push_back(property);
+          }
         unsigned int n_vertices = dimension + 1;
         for (unsigned int v = n_vertices; v < most; ++v)
           if (!card.field(2 + v).empty())

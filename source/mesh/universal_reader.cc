@@ -97,11 +97,12 @@ namespace Supple
         return numbers;
       }
 
+      /** Some programs begin with 0. */
       std::size_t
-      positive(const long value) const
+      label(const long value) const
       {
-        if (value <= 0)
-          refuse("the number " + std::to_string(value) + " is not positive.");
+        if (value < 0)
+          refuse("the number " + std::to_string(value) + " is negative.");
         return value;
       }
 
@@ -145,7 +146,7 @@ namespace Supple
         dealii::Point<3> place;
         if (!(words >> place[0] >> place[1] >> place[2]))
           refuse("there should be three coordinates.");
-        if (!mesh.vertices.emplace(positive(labels[0]), place).second)
+        if (!mesh.vertices.emplace(label(labels[0]), place).second)
           refuse("the vertex " + std::to_string(labels[0]) + " is given twice.");
         require_next();
       }
@@ -196,7 +197,7 @@ namespace Supple
       {
         const auto words             = whole_numbers(6);
         const unsigned int dimension = dimension_of(words[1]);
-        const std::size_t n_vertices = positive(words[5]);
+        const std::size_t n_vertices = label(words[5]);
         if (words[1] == 11 || (words[1] >= 21 && words[1] <= 24))
           require_next();
         std::vector<long> vertices;
@@ -220,9 +221,9 @@ namespace Supple
         UniversalElement element{dimension,
                                  static_cast<std::size_t>(std::max(words[2], 0l)),
                                  static_cast<std::size_t>(std::max(words[3], 0l)),
-                                 {positive(words[0]), {}, {}}};
+                                 {label(words[0]), {}, {}}};
         for (std::size_t v = 0; v < n_vertices; ++v)
-          element.element.vertices[v] = positive(vertices[v]);
+          element.element.vertices[v] = label(vertices[v]);
         if (!elements.emplace(element.element.number, element).second)
           refuse("the element " + std::to_string(words[0]) +
                  " is given twice. Each element needs a number of its own.");
@@ -234,7 +235,8 @@ namespace Supple
       read_group(const std::size_t n_numbers)
       {
         const auto words = whole_numbers(2);
-        unsigned int id  = positive(words.front());
+        // 0 means that an element has no id.
+        unsigned int id = std::max<std::size_t>(label(words.front()), 1);
         while (!group_numbers.insert(id).second)
           ++id;
         require_next();

@@ -1,10 +1,10 @@
 #include <supple/mesh/text_readers.h>
 
 #include <supple/base/error.h>
+#include <supple/mesh/vtk_grid.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -108,6 +108,26 @@ namespace Supple
           }
       }
 
+      /** Texts, each on a line; or each after its length, whose first two bits tell how many bytes
+       * it has. */
+      void
+      skip_strings(const std::size_t n)
+      {
+        line();
+        for (std::size_t i = 0; i < n && position < text.size(); ++i)
+          if (!binary)
+            line();
+          else
+            {
+              const auto first       = static_cast<unsigned char>(text[position]);
+              const unsigned n_bytes = 1u << (3 - (first >> 6));
+              std::size_t length     = first & 63;
+              for (unsigned b = 1; b < n_bytes && position + b < text.size(); ++b)
+                length = 256 * length + static_cast<unsigned char>(text[position + b]);
+              position = std::min(position + n_bytes + length, text.size());
+            }
+      }
+
     private:
       std::string text;
       std::size_t position = 0;
@@ -163,88 +183,26 @@ namespace Supple
     };
 
 
-    /** Of cells: which simplex it is, or what else. */
-    struct VtkKind
-    {
-      unsigned int dimension;
-      unsigned int n_vertices;
-      std::string other;
-    };
-
-    const std::map<int, VtkKind> vtk_kinds = {{3, {1, 2, ""}},
-                                              {4, {1, 0, "Polyline"}},
-                                              {5, {2, 3, ""}},
-                                              {6, {2, 0, "Triangle strip"}},
-                                              {7, {2, 0, "Polygon"}},
-                                              {8, {2, 4, "Pixel"}},
-                                              {9, {2, 4, "Quadrilateral 4"}},
-                                              {10, {3, 4, ""}},
-                                              {11, {3, 8, "Voxel"}},
-                                              {12, {3, 8, "Hexahedron 8"}},
-                                              {13, {3, 6, "Prism 6"}},
-                                              {14, {3, 5, "Pyramid 5"}},
-                                              {21, {1, 3, "Line 3"}},
-                                              {22, {2, 6, "Triangle 6"}},
-                                              {23, {2, 8, "Quadrilateral 8"}},
-                                              {24, {3, 10, "Tetrahedron 10"}},
-                                              {25, {3, 20, "Hexahedron 20"}}};
-
-
-    /** Names of fields of cells that programs write ids in, in small letters. */
-    const std::vector<std::string> id_names = {"medit",
-                                               "medit:ref",
-                                               "gmsh:physical",
-                                               "cellentityids",
-                                               "material",
-                                               "materials",
-                                               "materialid",
-                                               "materialids",
-                                               "material_id",
-                                               "material_ids",
-                                               "physical",
-                                               "physicalids",
-                                               "region",
-                                               "regionid",
-                                               "cell_tags",
-                                               "nastran:ref",
-                                               "tetgen:ref",
-                                               "avsucd:material"};
-
-
     class VtkReader
     {
     public:
       explicit VtkReader(const std::string &file)
         : stream(file)
       {
-        const std::string version = stream.line();
+        stream.line(); // the version
         stream.line(); // a title
-        stream.binary = stream.line().rfind("BINARY", 0) == 0;
+        const std::string format = stream.coming();
+        if (format != "ASCII" && format != "BINARY")
+          throw InputError("its third line should be ASCII or BINARY, not '" + format + "'.");
+        stream.binary = format == "BINARY";
+        stream.word();
         read();
       }
 
-      FileMesh
-      mesh()
-      {
-        const std::size_t n_cells = offsets.empty() ? 0 : offsets.size() - 1;
-        if (kind_numbers.size() != n_cells)
-          throw InputError("there are " + std::to_string(kind_numbers.size()) +
-                           " kinds of cells for " + std::to_string(n_cells) + " cells.");
-        for (std::size_t c = 0; c < kind_numbers.size(); ++c)
-          add_cell(c);
-        if (ids.empty() && !fields.empty())
-          result.warnings.push_back("Of the fields of cells (" + fields +
-                                    ") none has the name of ids, such as MaterialIds; all cells "
-                                    "have the material id 0.");
-        return std::move(result);
-      }
+      VtkGrid grid;
 
     private:
       VtkStream stream;
-      FileMesh result;
-      std::vector<double> connectivity, offsets, kind_numbers, ids;
-      std::string fields; ///< names of those of cells
-      std::size_t rank_of_ids = id_names.size();
 
       void
       read()
@@ -263,7 +221,7 @@ namespace Supple
             else if (word == "CELL_TYPES")
               {
                 const std::size_t n = stream.count("kinds of cells");
-                kind_numbers        = stream.numbers(n, "int", "kinds of cells");
+                grid.kinds          = stream.numbers(n, "int", "kinds of cells");
               }
             else if (word == "CELL_DATA" || word == "POINT_DATA")
               {
@@ -291,11 +249,7 @@ namespace Supple
         const std::string type = stream.word();
         const auto values      = stream.numbers(3 * n, type, "points");
         for (std::size_t v = 0; v < n; ++v)
-          result.vertices.emplace_hint(result.vertices.end(),
-                                       v,
-                                       dealii::Point<3>(values[3 * v],
-                                                        values[3 * v + 1],
-                                                        values[3 * v + 2]));
+          grid.points.emplace_back(values[3 * v], values[3 * v + 1], values[3 * v + 2]);
       }
 
       /** Up to version 4: the number of vertices before those of each cell. In version 5 where each
@@ -308,25 +262,25 @@ namespace Supple
           {
             stream.word();
             const std::string type = stream.word();
-            offsets                = stream.numbers(n, type, "cells");
+            grid.offsets           = stream.numbers(n, type, "cells");
             if (stream.word() != "CONNECTIVITY")
               throw InputError("CONNECTIVITY is missing after OFFSETS.");
             const std::string other_type = stream.word();
-            connectivity                 = stream.numbers(size, other_type, "vertices of cells");
+            grid.connectivity            = stream.numbers(size, other_type, "vertices of cells");
             return;
           }
         const auto values = stream.numbers(size, "int", "cells");
-        offsets           = {0.};
+        grid.offsets      = {0.};
         for (std::size_t i = 0; i < values.size();)
           {
             const double n_vertices = values[i++];
             for (double v = 0; v < n_vertices && i < values.size(); ++v)
-              connectivity.push_back(values[i++]);
-            offsets.push_back(connectivity.size());
+              grid.connectivity.push_back(values[i++]);
+            grid.offsets.push_back(grid.connectivity.size());
           }
-        if (offsets.size() != n + 1)
+        if (grid.offsets.size() != n + 1)
           throw InputError("it announces " + std::to_string(n) + " cells, but has " +
-                           std::to_string(offsets.size() - 1) + ".");
+                           std::to_string(grid.offsets.size() - 1) + ".");
       }
 
       void
@@ -387,7 +341,6 @@ namespace Supple
         keep(name, n_columns, n, type, of_cells);
       }
 
-      /** Takes ids from the field that has the likeliest name. */
       void
       keep(const std::string &name,
            const std::size_t columns,
@@ -395,63 +348,11 @@ namespace Supple
            const std::string &type,
            const bool of_cells)
       {
-        const auto values = stream.numbers(columns * rows, type, "values of " + name);
-        if (!of_cells)
-          return;
-        fields += (fields.empty() ? "" : ", ") + name;
-        std::string small = name;
-        std::transform(small.begin(), small.end(), small.begin(), [](const unsigned char letter) {
-          return std::tolower(letter);
-        });
-        const std::size_t rank =
-          std::find(id_names.begin(), id_names.end(), small) - id_names.begin();
-        const bool whole = std::all_of(values.begin(), values.end(), [](const double value) {
-          return value >= 0. && value < 1e9 && value == std::floor(value);
-        });
-        if (rank >= rank_of_ids || columns != 1)
-          return;
-        if (!whole)
-          result.warnings.push_back("The field " + name +
-                                    " has values that are no ids; it is not read.");
-        else
-          {
-            rank_of_ids = rank;
-            ids         = values;
-          }
-      }
-
-      void
-      add_cell(const std::size_t c)
-      {
-        const auto found = vtk_kinds.find(static_cast<int>(kind_numbers[c]));
-        if (found == vtk_kinds.end())
-          {
-            if (kind_numbers[c] > 2.) // vertices are no cells
-              ++result.others[3]["number " + std::to_string(static_cast<int>(kind_numbers[c]))];
-            return;
-          }
-        const VtkKind &kind = found->second;
-        if (!kind.other.empty())
-          {
-            ++result.others[kind.dimension][kind.other];
-            return;
-          }
-        FileMesh::Element element{c, {}, {}};
-        if (offsets[c + 1] - offsets[c] != kind.n_vertices || offsets[c] < 0. ||
-            offsets[c + 1] > connectivity.size())
-          throw InputError("the cell " + std::to_string(c) + " has not " +
-                           std::to_string(kind.n_vertices) + " vertices.");
-        for (unsigned int v = 0; v < kind.n_vertices; ++v)
-          {
-            const double vertex = connectivity[static_cast<std::size_t>(offsets[c]) + v];
-            if (vertex < 0. || vertex >= result.vertices.size())
-              throw InputError("an element has the node " + std::to_string(std::lround(vertex)) +
-                               ", which is not in the file.");
-            element.vertices[v] = vertex;
-          }
-        if (c < ids.size() && ids[c] > 0.)
-          element.ids.push_back(ids[c]);
-        result.elements[kind.dimension].push_back(element);
+        if (type == "string")
+          stream.skip_strings(columns * rows);
+        else if (const auto values = stream.numbers(columns * rows, type, "values of " + name);
+                 of_cells)
+          grid.fields.push_back({name, columns, values});
       }
     };
   } // namespace
@@ -460,6 +361,6 @@ namespace Supple
   FileMesh
   read_legacy_vtk(const std::string &file)
   {
-    return VtkReader(file).mesh();
+    return mesh_of(VtkReader(file).grid);
   }
 } // namespace Supple

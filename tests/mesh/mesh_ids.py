@@ -100,6 +100,24 @@ accepted(msh2("some.msh", [(4, 1, 1, CELLS[0][0]), (4, 0, 1, CELLS[1][0])]), "ma
 accepted(binary2("binary.msh", ONE_ENTITY, "<"), MATERIALS, BOUNDARIES)
 accepted(binary2("swapped.msh", ONE_ENTITY, ">"), MATERIALS, BOUNDARIES)
 
+# Version 2 with the parts that the elements are in, blank lines, lines that end with CR LF, and comments; and what is not whole.
+whole = (folder / "two.msh").read_text()
+accepted(save("parts.msh", whole.replace("4 2 1 1 ", "4 4 1 0 1 2 ")), MATERIALS, BOUNDARIES)
+accepted(save("blank.msh", whole.replace("$Nodes\n5\n", "$Nodes\n5\n\n").replace("$EndElements", "\n$EndElements")), MATERIALS, BOUNDARIES)
+packed = (folder / "binary.msh").read_bytes().replace(b"\n$End", b"$End")
+(folder / "packed.msh").write_bytes(packed)
+accepted("packed.msh", MATERIALS, BOUNDARIES)
+accepted(save("windows.msh", whole.replace("\n", "\r\n")), MATERIALS, BOUNDARIES)
+accepted(save("comments.msh", "$Comments\nmade by hand\n$EndComments\n" + whole), MATERIALS, BOUNDARIES)
+accepted(save("later.msh", whole.replace("$EndMeshFormat\n", "$EndMeshFormat\n$Later\n1 2\n$EndLater\n")), MATERIALS, BOUNDARIES)
+refused(save("fewer.msh", whole.replace("$Elements\n4\n", "$Elements\n5\n")), "announces 5 elements, but has 4")
+refused(save("more.msh", whole.replace("$Elements\n4\n", "$Elements\n3\n")), "announces 3 elements, but has more")
+refused(save("nodes.msh", whole.replace("$Nodes\n5\n", "$Nodes\n6\n")), "announces 6 nodes, but has 5")
+refused(save("again.msh", whole.replace("\n5 1 1 1\n", "\n4 1 1 1\n")), "node 4 is given twice")
+refused(save("nowhere.msh", whole.replace("2 3 4 5\n", "2 3 4 6\n")), "node 6, which is not in the file")
+refused(save("three.msh", whole.replace("1 4 2 1 1 1 2 3 4\n", "1 4 2 1 1 1 2 3\n")), "element 1 has 3 nodes", "should be 4")
+refused(save("word.msh", whole.replace("2 1 0 0\n", "2 1 0 o\n")), "'2 1 0 o'")
+
 # An element in two groups: the least id counts, and it is said.
 accepted(msh2("twice.msh", [*ONE_ENTITY, (4, 5, 2, CELLS[0][0])]), MATERIALS, "1 cell(s) belong to two physical volumes", warnings=1)
 refused(msh2("again.msh", [*ONE_ENTITY, (4, 2, 1, CELLS[1][0]), (4, 2, 1, CELLS[1][0])]), "given twice")
@@ -131,12 +149,20 @@ accepted(save("paraview.vtk", vtk.format("4.2", field, metadata) + cells + field
 new = "CELLS 5 14\nOFFSETS vtktypeint64\n0 4 8 11 14\nCONNECTIVITY vtktypeint64\n" + rows([v - 1 for v in nodes] for nodes, _ in CELLS + FACES)
 accepted(save("five.vtk", vtk.format("5.1", "", metadata) + new + "CELL_TYPES 4\n10 10 5 5\n" + ids.format("MaterialIds")), MATERIALS, BOUNDARIES)
 refused(save("short.vtk", vtk.format("3.0", "", "") + cells.replace("CELLS 4 18", "CELLS 5 18")), "announces 5 cells")
+text = "FIELD FieldData 1\nnames 1 2 string\nof%20one\ntwo words\n"
+accepted(save("strings.vtk", vtk.format("3.0", text, "") + cells + ids.format("mat_id")), MATERIALS, BOUNDARIES)
+accepted(save("negative.vtk", vtk.format("3.0", "", "") + cells + ids.format("medit").replace("1 2 10", "-1 2 10")),
+         "materials   0 (1), 2 (1)", "negative id", warnings=1)
+ghosts = "CELL_DATA 4\nFIELD FieldData 1\nvtkGhostType 1 4 unsigned_char\n0 1 0 0\n"
+accepted(save("ghosts.vtk", vtk.format("4.2", "", "") + cells + ghosts), "1 tetrahedra", "1 ghost cell(s)", warnings=2)
+refused(save("neither.vtk", "# vtk DataFile Version 3.0\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n"), "ASCII or BINARY")
 refused(save("surface.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\n"), "POLYDATA", "UNSTRUCTURED_GRID")
 
 # Names of groups stand for their numbers wherever those do.
 NAMES = [(3, 1, "soft"), (3, 2, "hard"), (2, 10, "clamp"), (2, 20, "pulled face")]
 msh2("names.msh", ONE_ENTITY, NAMES)
 accepted("names.msh", "held; 1 process", "10 (1)", settings=["Constraints/Clamped boundaries=clamp"])
+accepted(msh2("signs.msh", ONE_ENTITY, [*NAMES[:2], (2, 10, "clamp#1")]), "The group clamp#1 has a #", warnings=1)
 unv = "    -1\n  2411\n" + "".join(f"{i:10d}         1         1        11\n{x:25.16E}{y:25.16E}{z:25.16E}\n" for i, (x, y, z) in enumerate(VERTICES, 1))
 unv += "    -1\n    -1\n  2412\n"
 for number, (nodes, _) in enumerate(FACES + CELLS, 1):
@@ -145,8 +171,11 @@ unv += "    -1\n    -1\n  2467\n"
 for number, (name, member) in enumerate([("clamp", 1), ("pulled face", 2), ("soft", 3), ("hard", 4)], 1):
     unv += f"{number:10d}" + "         0" * 6 + f"         1\n{name}\n         8{member:10d}         0         0\n"
 save("salome.unv", unv + "    -1\n")
+accepted(save("zero.unv", unv.replace("         1         0         0         0         0         0         0         1\nclamp",
+                                       "         0" * 7 + "         1\nclamp") + "    -1\n"), "clamp (boundary ")
 accepted("salome.unv", "materials   3 (1), 4 (1)", "boundaries  0 (4), 1 (1), 2 (1)", "clamp", "hard")
-refused(save("cut.unv", unv[:-30]), "ends within")
+refused(save("cut.unv", unv[:-41]), "ends within")
+refused(save("cut.unv", unv[:-30]), "4 whole numbers")
 for name in ("names.msh", "salome.unv"):
     refused(name, "'clmp' is no boundary id", "clamp", settings=["Constraints/Clamped boundaries=clmp"])
     refused(name, "id: Young modulus", settings=["Material/By id=harder: 1e7, 0.3, 1000"])

@@ -85,7 +85,7 @@ refused("good.msh", "id: expression", settings=["Mesh/Boundary regions=top: z > 
 refused(write("flat.msh", vertices=[*VERTICES[:4], (0.5, 0.5, 0)]), "1 cell(s) are flat", "cell 1 at (")
 refused(write("three.msh", vertices=[*VERTICES, (0.2, 0.2, -1), (0.2, 0.2, -2)],
               cells=[CELLS[0], (0, 2, 1, 5), (0, 2, 1, 6)]), "a face has three cells")
-refused(write("numbers.msh", numbers=[44, 44]), "announces 2 elements", "only 1 can be read", "meshio convert")
+accepted(write("numbers.msh", numbers=[44, 44]), "2 tetrahedra, 5 vertices", "0.5 m^3")
 refused(write("only-surface.msh", cells=[(1, 2, 3)], kind=2), "but no tetrahedra", "plane z = 0")
 quadratic = [(i / 10, (i * i % 7) / 7, (i % 3) / 3) for i in range(10)]
 refused(write("quadratic.msh", vertices=quadratic, cells=[tuple(range(10))], kind=11), "1 of the kind Tetrahedron 10", "order 1")
@@ -116,18 +116,24 @@ runner.check(not (folder / "was-run").exists(), "the mesh file was run")
 (folder / "cut.msh").write_text((folder / "good.msh").read_text()[:120])
 refused("cut.msh", "cut.msh")
 refused("missing.msh", "no such file")
-for name, words in [("body.stl", ["surface", "no volume"]), ("body.vtu", ["meshio convert", "--output-format gmsh22"]),
-                    ("body.inp", ["meshio convert"]), ("body.geo", [".geo is not known", ".msh"])]:
+for name, words in [("body.stl", ["surface", "no volume"]), ("body.e", ["meshio convert", "--output-format gmsh22"]),
+                    ("body.inp", ["meshio convert"]), ("body.geo", [".geo is not known", ".msh"]), ("body.meshb", ["meshio convert"]),
+                    ("body.vtu", ["none of VTK's XML files", "<VTKFile"]), ("body.pvtu", ["files of its parts"]),
+                    ("body.dat", ["Nastran's bulk data", ".bdf"])]:
     (folder / name).write_text("solid\n")
     refused(name, *words)
 for name, content, words in [("empty.msh", "", ["is empty"]), ("no-ending", "x", ["no ending", "Read are .msh"]),
                              ("body.MSH", "x", ["small letters"]), ("body.STL", "x", ["surface"]), ("body.obj", "x", ["surface"]),
                              ("body.ele", "x", ["TetGen", "meshio convert"]), ("old.vtk", "x", ["not a legacy VTK file"]),
+                             ("xml.vtk", "<VTKFile type='UnstructuredGrid'>", ["ending .vtu"]),
+                             ("legacy.vtu", "# vtk DataFile Version 3.0\n", ["ending .vtk"]),
                              ("new.vtk", "# vtk DataFile Version 6.0\nx\nBINARY\n", ["version 6.0", "meshio convert", "new.msh"]),
                              ("mark.msh", "\ufeff$MeshFormat\n2.2 0 8\n", ["byte order mark"]),
-                             ("my body.vtu", "x", [f"meshio convert '{folder}/my body.vtu' '{folder}/my body.msh'"])]:
+                             ("my body.med", "x", [f"meshio convert '{folder}/my body.med' '{folder}/my body.msh'"])]:
     (folder / name).write_text(content)
     refused(name, *words)
+(folder / "one#two.msh").write_text((folder / "good.msh").read_text())
+refused("one#two.msh", "one#two.msh", "begins a comment")
 (folder / "folder.msh").mkdir()
 refused("folder.msh", "is a folder")
 status, _, error = runner.run("--check", scene)

@@ -65,6 +65,12 @@ refused(GRIDS + CELLS + "CHEXA,9,1,1,2,3,4,5,6,+\n+,7,8\n", "1 of the kind CHEXA
 accepted(GRIDS + CELLS + FACES + "CQUAD4,9,7,1,2,3,4\n", ["1 of the kind CQUAD4"], warnings=1)
 accepted(GRIDS + CELLS + FACES + "RBE2,9,1,123,2,3\n", ["RBE2 (1)"], warnings=1)
 
+# A mark may begin with any character; CBARAO and the like are no lines of the body; numbers may be large.
+accepted(GRIDS + "CTETRA  1       1       1       2       3       4                       K1\n+1\n" + "CTETRA,2,2,2,3,4,5\n" + FACES, BODY)
+accepted(GRIDS + CELLS + FACES + "CBAR,9,7,1,2,0.,0.,1.\nCBARAO,9,FR,0.5\n", ["CBARAO (1)"], warnings=1)
+accepted(GRIDS.replace("GRID,5,", "GRID,80000000001,") + CELLS.replace(",5\n", ",80000000001\n") + FACES, BODY)
+refused(GRIDS + "CTETRA,1,80000000001,1,2,3,4\n", "80000000001, is too large")
+
 # Half of the mesh in another file, or all of it.
 (folder / "half.bdf").write_text("GRID,5,,1.,1.,1.\nCTETRA,2,2,2,3,4,5\n")
 whole = GRIDS.replace("GRID,5,,1.,1.,1.\n", "") + "CTETRA,1,1,1,2,3,4\n" + FACES

@@ -5,7 +5,8 @@
 
 namespace Supple
 {
-  /** Reads a .msh file of Gmsh by its library: versions 1, 2 and 4, ASCII or binary.
+  /** Reads a .msh file of Gmsh, ASCII or binary: version 4 by its library, versions 1 and 2 by
+   * read_msh().
    * @throws InputError if it can't be read, or not all of it */
   FileMesh
   read_gmsh(const std::string &file);

@@ -35,6 +35,14 @@ namespace Supple
    */
   FileMesh
   read_legacy_vtk(const std::string &file);
+
+  /**
+   * VTK's XML files with an unstructured grid (.vtu), all its pieces, with arrays in text, in
+   * base64 or appended, packed by zlib or not. Ids as in legacy files.
+   * @throws InputError for what is not whole or not understood
+   */
+  FileMesh
+  read_vtu(const std::string &file);
 } // namespace Supple
 
 #endif
