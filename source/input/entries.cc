@@ -72,11 +72,12 @@ namespace Supple
   Range
   Range::whole_number(const unsigned int least)
   {
-    return {"a whole number, " + std::to_string(least) + " or greater",
+    const int most = std::numeric_limits<int>::max();
+    return {"a whole number, " + std::to_string(least) + " or greater (at most " +
+              std::to_string(most) + ")",
             [=](const std::string &text) {
               const bool digits = std::regex_match(text, std::regex("\\s*\\+?\\d+\\s*"));
-              return digits && number(text) >= least &&
-                     number(text) <= std::numeric_limits<int>::max();
+              return digits && number(text) >= least && number(text) <= most;
             }};
   }
 

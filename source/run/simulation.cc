@@ -58,8 +58,10 @@ namespace Supple
 
 
   void
-  Simulation::check() const
+  Simulation::check()
   {
+    observed = true;
+    measure(0, StepReport());
     if (talks)
       description().print(true);
   }

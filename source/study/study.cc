@@ -135,6 +135,8 @@ namespace Supple
   {
     const InterruptGuard interrupt;
     const auto start = std::chrono::steady_clock::now();
+    for (const PlannedRun &run : plan.references)
+      runner.check(plan.parameters(run)); // what is refused leaves an earlier study as it is
     open_output();
     say("Supple " SUPPLE_VERSION ", study " + parameters.name + ": " +
         std::to_string(plan.runs.size()) + " runs of scene " + plan.base.scene_name);

@@ -90,6 +90,16 @@ namespace Supple
         return frequency(times, values);
       return values.back();
     }
+
+
+    /** Of what does not move: zero where there is no error, and no number where there is one. */
+    double
+    relative(const double error, const double size)
+    {
+      if (size == 0.)
+        return error == 0. ? 0. : nothing;
+      return error / size;
+    }
   } // namespace
 
 
@@ -291,7 +301,7 @@ namespace Supple
         error  = std::max(error, *std::max_element(distance.begin(), distance.end()));
         motion = std::max(motion, *std::max_element(path.begin(), path.end()));
       }
-    return std::sqrt(error / motion);
+    return std::sqrt(relative(error, motion));
   }
 
 
@@ -304,8 +314,8 @@ namespace Supple
       return error_of_probes(run, reference);
     if (quantity == "final field")
       return run.displacement.size() == reference.displacement.size()
-               ? largest_vertex_distance(run.displacement, reference.displacement) /
-                   reference.largest_motion
+               ? relative(largest_vertex_distance(run.displacement, reference.displacement),
+                          reference.largest_motion)
                : nothing;
 
     const bool energy        = quantity == "energy";
@@ -319,7 +329,7 @@ namespace Supple
       error =
         std::max(error,
                  std::abs(run.column(column)[i] - reference.value(column, run.column("time")[i])));
-    return error / size;
+    return relative(error, size);
   }
 
 
@@ -339,7 +349,7 @@ namespace Supple
                 error = std::max(error, std::abs(run.column(value.name)[i] - right));
                 size  = std::max(size, std::abs(right));
               }
-            found.push_back(error / size);
+            found.push_back(relative(error, size));
           }
         for (const std::string &quantity : quantities)
           found.push_back(error_over_time(quantity, run, *reference));

@@ -62,7 +62,7 @@ namespace Supple
   void
   StudyRunner::check(const Parameters &parameters) const
   {
-    Simulation(parameters, "", true, communicator);
+    Simulation(parameters, "", true, communicator).check();
   }
 
 

@@ -191,7 +191,7 @@ namespace Supple
   std::string
   percent(const double part)
   {
-    return digits(100. * part, 3) + " %";
+    return std::isfinite(part) ? digits(100. * part, 3) + " %" : "unknown";
   }
 
 

@@ -138,6 +138,8 @@ namespace Supple
   std::string
   StableStep::description() const
   {
+    if (std::isinf(step))
+      return "any length (nothing of the body is free to swing)";
     std::ostringstream text;
     text << step << " s (the body's fastest oscillation at rest has " << frequency << " rad/s)";
     return text.str();

@@ -74,7 +74,7 @@ for entry, values, words in [
         ("Material/Poisson ratio", [0.5, 0.7, -1, -2], ["greater than -1 and less than 0.5"]),
         ("Material/Density", [0, -1], ["greater than 0"]),
         ("Time/Step", [0, -0.1, "nan"], ["greater than 0"]),
-        ("Time/Steps", [0, -3, 1.5], ["whole number, 1 or greater"]),
+        ("Time/Steps", [0, -3, 1.5, 4000000000], ["whole number, 1 or greater (at most 2147483647)"]),
         ("Mesh/Box size", ["4, 12, 0", "4, 12"], ["three values", "greater than 0"]),
         ("Mesh/Box cubes", ["2, 8, 0", "2, 8, 2, 2"], ["three values", "1 or greater"]),
         ("Corotation/Rotation", ["quaternion"], ["none, gram-schmidt, polar"]),
@@ -84,7 +84,7 @@ for entry, values, words in [
         ("Loads/Body force", ["w; 0; 0"], ["w", "x, y, z, t"]),
         ("Start/Velocity", ["1/0; 0; 0", "sqrt(-1); 0; 0"], ["finite"]),
         ("Constraints/Clamped boundaries", ["7"], ["no boundary 7", "3 (8 faces)"]),
-        ("Constraints/Clamped boundaries", ["top"], ["boundary ids"]),
+        ("Constraints/Clamped boundaries", ["top"], ["no boundary id", "name of a group"]),
         ("Constraints/Clamped region", ["x > 100"], ["no vertex", "[0, 4] x [0, 12] x [0, 4]", "0, 1, 2, 3, 4, 5"]),
         ("Constraints/Clamped region", ["x >"], ["Unexpected end"]),
         ("Constraints/Clamped region", ["sqrt(x - 50)"], ["finite"]),
@@ -115,6 +115,7 @@ refused([*static, "--set", "Constraints/Clamped region=x == 0 && y == 0 && z == 
 for entry, values in [("Start/Velocity", ["0; 0; -1e155", "-1e160; 0; 0"]), ("Start/Displacement", ["1e200*x; 0; 0"])]:
     for value in values:
         with_setting(entry, value, entry, "too large", "no finite numbers", "[0, 4] x [0, 12] x [0, 4]")
+        refused(["--check", runner.BAR, "--set", f"{entry}={value}"], "too large")
 
 # An output folder that can't be: beneath a regular file, so that it holds for root too.
 (folder / "file").write_text("")

@@ -272,6 +272,18 @@ status, _, error = runner.run(write("lost", **{**right, "Reference": f"esdirk4 [
                               "--output", folder / "lost")
 runner.check(status == 2 and "The reference" in error and "failed" in error, error)
 
+# What does not move in the reference, nor in the run, has no error.
+rows = study("still", **{**right, "Overrides": "Constraints/Clamped boundaries= | Motion/Of=all | Time/Steps=2"})
+runner.check(rows and all(float(row["error_probes"]) == 0 for row in rows), f"{rows}")
+
+# A study whose scene is refused leaves the tables of an earlier one as they are.
+still = folder / "still-1"
+earlier = {path: path.read_bytes() for path in still.iterdir() if path.is_file()}
+for scene, words in [("Constraints/Clamped boundaries=9", "no boundary 9"), ("Start/Velocity=0; 0; -1e155", "too large")]:
+    status, _, error = runner.run(write("still", **{**right, "Overrides": scene}), "--output", still)
+    runner.check(status == 1 and words in error, f"{status} {error}")
+    runner.check(earlier == {path: path.read_bytes() for path in still.iterdir() if path.is_file()}, f"{scene}: tables are changed")
+
 # A study of which no run is done and right has failed; its table is complete.
 for name, cases, words in [("all failed", "a [Loads/Gravity=1e308,0,0]; b [Loads/Gravity=0,1e308,0]", "None of the 2 runs"),
                            ("all refused", "a [Mesh/Box size=1, 1]", "refused"), ("one is done", "a [Loads/Gravity=1e308,0,0]; b", "")]:

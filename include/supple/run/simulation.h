@@ -89,9 +89,10 @@ namespace Supple
       return *last_summary;
     }
 
-    /** Says what would be run, as a table, with what was found in the mesh; runs nothing. */
+    /** Measures the start, and says what would be run, as a table, with what was found in the mesh;
+     * runs nothing. @throws InputError if the start is not one of finite numbers */
     void
-    check() const;
+    check();
 
   private:
     /** The second run, which tells the error of this one. */

@@ -82,7 +82,7 @@ namespace Supple
   };
 
 
-  /** "0.83 %" */
+  /** "0.83 %", or "unknown" of what is no finite number */
   std::string
   percent(double part);
 
