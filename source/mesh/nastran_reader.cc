@@ -125,6 +125,7 @@ namespace Supple
     {
     public:
       std::vector<Card> list;
+      bool may_be_cut = false; ///< it begins the bulk data and does not end them
 
       void
       read(const std::filesystem::path &file, const unsigned int depth = 0)
@@ -153,6 +154,7 @@ namespace Supple
             else if (in_bulk && !start.empty())
               add(capitals(line), place);
           }
+        may_be_cut = has_head && !ended;
       }
 
     private:
@@ -238,6 +240,8 @@ namespace Supple
       {
         Cards cards;
         cards.read(file);
+        if (cards.may_be_cut)
+          mesh.warnings.push_back("ENDDATA is missing: the file may be cut off.");
         for (const Card &card : cards.list)
           if (card.name == "GRDSET")
             preset_system = card.field(1);

@@ -41,7 +41,8 @@ def refused(text, *words):
 
 accepted("BEGIN BULK\n" + GRIDS + CELLS + FACES + "ENDDATA\n", BODY)
 accepted(GRIDS + CELLS + FACES, BODY)
-accepted(("SOL 101\nCEND\n$ a comment, CTETRA,9\nBegin Bulk\n" + GRIDS + CELLS + FACES).lower(), BODY)
+accepted(("SOL 101\nCEND\n$ a comment, CTETRA,9\nBegin Bulk\n" + GRIDS + CELLS + FACES + "ENDDATA\n").lower(), BODY)
+accepted("BEGIN BULK\n" + GRIDS + CELLS + FACES, ["ENDDATA is missing: the file may be cut off"], warnings=1)
 
 # Fields of 8 and 16 characters, tabs, numbers without E, ids of properties that are left out.
 small = "".join(f"GRID    {i:8d}        {x:8.1f}{y:8.1f}{z:8.1f}\n" for i, (x, y, z) in enumerate(VERTICES, 1))
@@ -75,7 +76,7 @@ refused(GRIDS + "CTETRA,1,80000000001,1,2,3,4\n", "80000000001, is too large")
 (folder / "half.bdf").write_text("GRID,5,,1.,1.,1.\nCTETRA,2,2,2,3,4,5\n")
 whole = GRIDS.replace("GRID,5,,1.,1.,1.\n", "") + "CTETRA,1,1,1,2,3,4\n" + FACES
 accepted("BEGIN BULK\n" + whole + "INCLUDE 'half.bdf'\nENDDATA\n", BODY)
-accepted("BEGIN BULK\ninclude half.bdf\n" + whole, BODY)
+accepted("BEGIN BULK\ninclude half.bdf\n" + whole + "ENDDATA\n", BODY)
 (folder / "all.bdf").write_text(GRIDS + CELLS + FACES)
 accepted("CEND\nBEGIN BULK\nINCLUDE \"all.bdf\"\nENDDATA\n", BODY)
 refused("INCLUDE 'nowhere.bdf'\n" + whole, "line 1", "'nowhere.bdf' is not there")
