@@ -64,6 +64,14 @@ namespace Supple
   }
 
 
+  void
+  StepDoubling::end(const Observation & /* now */)
+  {
+    if (!compared && failure.empty())
+      failure = "up to the end the two runs have no time in common";
+  }
+
+
   std::optional<double>
   StepDoubling::follow(const double time, const Vector &displacement)
   {
@@ -89,7 +97,8 @@ namespace Supple
         failure = "its motion is too large to be compared";
         return {};
       }
-    largest = std::max(largest, last);
+    compared = true;
+    largest  = std::max(largest, last);
     return last;
   }
 } // namespace Supple

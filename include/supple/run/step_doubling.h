@@ -47,6 +47,10 @@ namespace Supple
     bool
     after_step(const Observation &now) override;
 
+    /** Where the two runs were at the same time nowhere, no error is known. */
+    void
+    end(const Observation &now) override;
+
     /** The error of the displacement after the last step, largest over all vertices [m]; nothing
      * where the two runs are not at the same time. */
     const std::optional<double> &
@@ -58,7 +62,7 @@ namespace Supple
     double largest = 0.;    ///< error so far [m]
     double last    = 0.;    ///< error where it was found last [m]
     double seconds = 0.;    ///< that the second run took
-    std::string failure;    ///< why there is no second run any more; empty while there is
+    std::string failure;    ///< why no error is known; empty while there is a second run
     const std::string name; ///< "half the step" or "a tenth of the tolerances"
 
   private:
@@ -68,6 +72,7 @@ namespace Supple
     const double factor;
     const SecondRun second_run;
     std::optional<double> error_now;
+    bool compared = false; ///< whether the two runs have been at the same time
   };
 } // namespace Supple
 
