@@ -3,159 +3,54 @@
 #include <supple/base/error.h>
 
 #include <algorithm>
-#include <cctype>
+#include <limits>
+#include <memory>
+
+#include <expat.h>
 
 namespace Supple
 {
   namespace
   {
-    constexpr unsigned int deepest = 50;
+    constexpr std::size_t deepest = 50;
 
 
-    class Parser
+    /** What Expat calls while it reads a text. */
+    struct Tree
     {
-    public:
-      explicit Parser(const std::string &text)
-        : text(text)
-      {
-      }
+      XmlElement outside;                          ///< its child is the outermost element
+      std::vector<XmlElement *> open = {&outside}; ///< in which the next text stands
+      XML_Parser parser;
+      bool too_deep = false;
 
-      XmlElement
-      document()
+      static void
+      begin(void *const data, const char *const name, const char **attribute)
       {
-        while (skip_to_element())
-          if (text[position + 1] != '/')
-            return element(0);
-        throw InputError("there is no XML in it.");
-      }
-
-    private:
-      const std::string &text;
-      std::size_t position = 0;
-
-      [[noreturn]] void
-      refuse(const std::string &why) const
-      {
-        const std::size_t end = std::min(position, text.size());
-        const auto line       = 1 + std::count(text.begin(), text.begin() + end, '\n');
-        throw InputError("line " + std::to_string(line) + ": " + why);
-      }
-
-      bool
-      at(const std::string &what) const
-      {
-        return text.compare(position, what.size(), what) == 0;
-      }
-
-      void
-      skip_past(const std::string &what)
-      {
-        const auto found = text.find(what, position);
-        if (found == std::string::npos)
-          refuse("the file ends before '" + what + "'.");
-        position = found + what.size();
-      }
-
-      /** Beyond text, comments and declarations, to the next < of an element. */
-      bool
-      skip_to_element()
-      {
-        while ((position = text.find('<', position)) != std::string::npos)
-          if (at("<!--"))
-            skip_past("-->");
-          else if (at("<?") || at("<!"))
-            skip_past(">");
-          else
-            return position + 1 < text.size();
-        return false;
-      }
-
-      void
-      skip_blanks()
-      {
-        while (position < text.size() && std::isspace(static_cast<unsigned char>(text[position])))
-          ++position;
-      }
-
-      std::string
-      word()
-      {
-        const auto end = std::min(text.find_first_of(" \t\r\n=/>\"'<", position), text.size());
-        const std::string content = text.substr(position, end - position);
-        position                  = end;
-        return content;
-      }
-
-      static std::string
-      without_entities(std::string content)
-      {
-        // The ampersand comes last: what it makes is no entity.
-        for (const auto &[entity, character] : {std::make_pair("&lt;", "<"),
-                                                {"&gt;", ">"},
-                                                {"&quot;", "\""},
-                                                {"&apos;", "'"},
-                                                {"&amp;", "&"}})
-          for (auto found = content.find(entity); found != std::string::npos;
-               found      = content.find(entity, found + 1))
-            content.replace(found, std::string(entity).size(), character);
-        return content;
-      }
-
-      void
-      read_attributes(XmlElement &element)
-      {
-        for (skip_blanks(); position < text.size() && text[position] != '>' && !at("/>");
-             skip_blanks())
+        Tree &tree = *static_cast<Tree *>(data);
+        if (tree.open.size() > deepest)
           {
-            const std::string name = word();
-            skip_blanks();
-            if (name.empty() || !at("="))
-              refuse("the attributes of <" + element.name + "> are not whole.");
-            ++position;
-            skip_blanks();
-            const char quote = position < text.size() ? text[position] : ' ';
-            const auto end   = text.find(quote, position + 1);
-            if ((quote != '"' && quote != '\'') || end == std::string::npos)
-              refuse("the attribute " + name + " is not in quotes.");
-            element.attributes[name] =
-              without_entities(text.substr(position + 1, end - position - 1));
-            position = end + 1;
+            tree.too_deep = true;
+            XML_StopParser(tree.parser, XML_FALSE);
+            return;
           }
+        // Only the last child of an element is open: the others may move.
+        XmlElement &element = tree.open.back()->children.emplace_back();
+        element.name        = name;
+        for (; *attribute; attribute += 2)
+          element.attributes[attribute[0]] = attribute[1];
+        tree.open.push_back(&element);
       }
 
-      XmlElement
-      element(const unsigned int depth)
+      static void
+      end(void *const data, const char * /* name */)
       {
-        if (depth > deepest)
-          refuse("elements lie too deep in each other.");
-        ++position;
-        XmlElement result;
-        result.name = word();
-        read_attributes(result);
-        if (at("/>"))
-          {
-            position += 2;
-            return result;
-          }
-        skip_past(">");
-        for (std::size_t begin = position;; begin = position)
-          {
-            const bool found = skip_to_element();
-            result.text += text.substr(begin, found ? position - begin : std::string::npos);
-            if (!found)
-              refuse("the file ends before </" + result.name + ">.");
-            if (text[position + 1] != '/')
-              {
-                result.children.push_back(element(depth + 1));
-                continue;
-              }
-            position += 2;
-            const std::string end = word();
-            if (end != result.name)
-              refuse("</" + end + "> stands where <" + result.name + "> should end.");
-            skip_past(">");
-            return result;
-          }
+        static_cast<Tree *>(data)->open.pop_back();
+      }
+
+      static void
+      add_text(void *const data, const char *const text, const int length)
+      {
+        static_cast<Tree *>(data)->open.back()->text.append(text, length);
       }
     };
   } // namespace
@@ -182,6 +77,32 @@ namespace Supple
   XmlElement
   parse_xml(const std::string &text)
   {
-    return Parser(text).document();
+    const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(
+      XML_ParserCreate(nullptr), XML_ParserFree);
+    Tree tree;
+    tree.parser = parser.get();
+    XML_SetUserData(parser.get(), &tree);
+    XML_SetElementHandler(parser.get(), Tree::begin, Tree::end);
+    XML_SetCharacterDataHandler(parser.get(), Tree::add_text);
+
+    const std::size_t most_at_once = std::numeric_limits<int>::max();
+    for (std::size_t begin = 0; begin <= text.size(); begin += most_at_once)
+      {
+        const std::size_t n = std::min(most_at_once, text.size() - begin);
+        const bool last     = begin + n == text.size();
+        if (XML_Parse(parser.get(), text.data() + begin, static_cast<int>(n), last) ==
+            XML_STATUS_OK)
+          {
+            if (last)
+              break;
+            continue;
+          }
+        const auto line = std::to_string(XML_GetCurrentLineNumber(parser.get()));
+        throw InputError("line " + line + ": " +
+                         (tree.too_deep ? "elements lie too deep in each other"
+                                        : XML_ErrorString(XML_GetErrorCode(parser.get()))) +
+                         ".");
+      }
+    return std::move(tree.outside.children.front());
   }
 } // namespace Supple

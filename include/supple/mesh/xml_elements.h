@@ -26,9 +26,9 @@ namespace Supple
 
 
   /**
-   * Reads a text with comments, declarations and the five entities of XML.
+   * Reads a text by Expat.
    * @return the outermost element
-   * @throws InputError where an element is not closed, or another one is
+   * @throws InputError with the line where it is no XML, or elements lie 50 deep in each other
    */
   XmlElement
   parse_xml(const std::string &text);
