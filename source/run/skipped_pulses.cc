@@ -64,7 +64,7 @@ namespace Supple
           named.push_back(i);
 
       const auto [low, high]       = box.get_boundary_points();
-      const std::size_t most_parts = named.size() == 1 ? 8 : named.size() == 2 ? 4 : 3;
+      const std::size_t most_parts = named.size() < 3 ? 8 : 4;
       std::vector<Point<3>> points = {box.center()};
       for (const unsigned int i : named)
         {

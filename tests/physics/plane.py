@@ -209,7 +209,7 @@ for model in MODELS:
 
 # What ParaView gets: triangles, and the stress and volume ratio that each model has.
 for model, stress, volume in [("plane strain", math.sqrt(1 - NU + NU**2), (1 - 2 * NU) * (1 + NU)),
-                              ("plane stress", 1, 1 - NU), ("axisymmetric", 1, 1 - 2 * NU)]:
+                              ("plane stress", 1, 1 - 2 * NU), ("axisymmetric", 1, 1 - 2 * NU)]:
     results = runner.simulate(PLATE, {**pulled, **section(model)[0], "Output/Frames": "every", "Output/Every": 1})
     frame = vtu.Frame(results.folder / "solution" / "frame_0001.vtu")
     runner.check(set(frame.types) == {5}, "not all cells are triangles")
