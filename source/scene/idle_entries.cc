@@ -14,7 +14,7 @@ namespace Supple
     struct Rule
     {
       bool holds;
-      std::string reason; ///< "Mesh/Shape is not box"
+      std::string reason; ///< "Mesh/Shape is not box."
       std::vector<std::string> entries;
     };
 
@@ -32,18 +32,18 @@ namespace Supple
     {
       using Shape = MeshParameters::Shape;
       return {
-        {mesh.shape != Shape::file, "Mesh/Shape is not file", {"Mesh/File", "Mesh/Scale"}},
+        {mesh.shape != Shape::file, "Mesh/Shape is not file.", {"Mesh/File", "Mesh/Scale"}},
         {mesh.shape != Shape::box,
-         "Mesh/Shape is not box",
+         "Mesh/Shape is not box.",
          {"Mesh/Box size", "Mesh/Box cubes", "Mesh/Box origin"}},
         {mesh.shape != Shape::rectangle,
-         "Mesh/Shape is not rectangle",
+         "Mesh/Shape is not rectangle.",
          {"Mesh/Rectangle size",
           "Mesh/Rectangle squares",
           "Mesh/Rectangle origin",
           "Mesh/Rectangle split"}},
         {mesh.shape != Shape::hollow_cylinder,
-         "Mesh/Shape is not hollow cylinder",
+         "Mesh/Shape is not hollow cylinder.",
          {"Mesh/Cylinder inner radius",
           "Mesh/Cylinder outer radius",
           "Mesh/Cylinder height",
@@ -58,12 +58,12 @@ namespace Supple
     rules_of_loads(const LoadParameters &loads, const StartParameters &start)
     {
       return {
-        {says_zero(loads.traction), "Loads/Traction is 0", {"Loads/Traction on"}},
+        {says_zero(loads.traction), "Loads/Traction is 0.", {"Loads/Traction on"}},
         {says_zero(loads.pressure),
-         "Loads/Pressure is 0",
+         "Loads/Pressure is 0.",
          {"Loads/Pressure on", "Loads/Pressure follows"}},
-        {says_zero(loads.nodal_force), "Loads/Nodal force is 0", {"Loads/Nodal force on"}},
-        {start.rotation.norm() == 0., "Start/Rotation is 0", {"Start/Rotation center"}},
+        {says_zero(loads.nodal_force), "Loads/Nodal force is 0.", {"Loads/Nodal force on"}},
+        {start.rotation.norm() == 0., "Start/Rotation is 0.", {"Start/Rotation center"}},
       };
     }
 
@@ -75,13 +75,13 @@ namespace Supple
       const bool lame = scene.material.constants == Constants::lame;
       return {
         {lame,
-         "Material/Elastic constants are Lame's",
+         "Material/Elastic constants are Lame's.",
          {"Material/Young modulus", "Material/Poisson ratio"}},
         {!lame,
-         "Material/Elastic constants are Young's modulus and Poisson's ratio",
+         "Material/Elastic constants are Young's modulus and Poisson's ratio.",
          {"Material/Lame lambda", "Material/Lame mu"}},
         {scene.corotation.rotation == RotationMethod::none,
-         "Corotation/Rotation is none",
+         "Corotation/Rotation is none.",
          {"Corotation/Warp tolerance"}},
       };
     }
@@ -95,11 +95,13 @@ namespace Supple
                                                    "Time/Velocity tolerance",
                                                    "Time/Longest step"};
       if (time.problem == TimeParameters::Problem::stationary)
-        return {{true, "Time/Problem is static", {"Time/Step", "Time/Method", "Time/Energy guard"}},
-                {true, "Time/Problem is static", tolerances}};
+        return {{true,
+                 "Time/Problem is static.",
+                 {"Time/Step", "Time/Method", "Time/Energy guard"}},
+                {true, "Time/Problem is static.", tolerances}};
       return {
-        {!time.has_variable_steps(), "Time/Variable steps is false", tolerances},
-        {time.method != TimeMethod::ida, "Time/Method is not ida", {"Time/Maximum order"}},
+        {!time.has_variable_steps(), "Time/Variable steps is false.", tolerances},
+        {time.method != TimeMethod::ida, "Time/Method is not ida.", {"Time/Maximum order"}},
       };
     }
 
@@ -111,15 +113,15 @@ namespace Supple
       // Without frames all entries about them are silent on purpose.
       const bool frames = output.frames != Frames::none;
       return {
-        {frames && output.frames != Frames::every, "Output/Frames is not every", {"Output/Every"}},
+        {frames && output.frames != Frames::every, "Output/Frames is not every.", {"Output/Every"}},
         {frames && output.frames != Frames::interval,
-         "Output/Frames is not interval",
+         "Output/Frames is not interval.",
          {"Output/Interval"}},
         {frames && output.frames != Frames::adaptive,
-         "Output/Frames is not adaptive",
+         "Output/Frames is not adaptive.",
          {"Output/Motion", "Output/Volume ratio change", "Output/Longest interval"}},
         {probes.profiles.empty(),
-         "Probes/Profiles names none",
+         "Probes/Profiles names none.",
          {"Probes/Profile every", "Probes/Profile center"}},
       };
     }
@@ -131,7 +133,7 @@ namespace Supple
       std::vector<Rule> rules;
       for (unsigned int m = 0; m < scene.motions.size(); ++m)
         rules.push_back({scene.motions[m].of.empty(),
-                         motion_section(m) + "/Of, which says what moves, is empty",
+                         motion_section(m) + "/Of, which says what moves, is empty.",
                          {motion_section(m) + "/Displacement"}});
       for (const auto &more : {rules_of_mesh(scene.mesh),
                                rules_of_loads(scene.loads, scene.start),
@@ -151,7 +153,7 @@ namespace Supple
     for (const Rule &rule : all_rules(scene))
       for (const std::string &entry : rule.entries)
         if (rule.holds && scene.changes(entry))
-          found.push_back(scene.origin(entry) + ": it has no effect, for " + rule.reason + ".");
+          found.push_back(scene.origin(entry) + ": it has no effect, for " + rule.reason);
     return found;
   }
 } // namespace Supple
