@@ -217,7 +217,8 @@ for entry, value, words in [
         ("Constraints/Clamped region", "x < 1 and y > 0", "at character 7: and is &&"),
         ("Constraints/Clamped region", "not (x < 1)", "not is !")]:
     with_setting(entry, value, words)
-refused([runner.BAR, "--set", "Motion/Of=all", "--set", "Motion/Displacement=0; 0,01*t; 0"], "The decimal sign is a point")
+refused([runner.BAR, "--set", "Constraints/Clamped boundaries=", "--set", "Motion/Of=all", "--set", "Motion/Displacement=0; 0,01*t; 0"],
+        "The decimal sign is a point")
 for entry, value in [("Constraints/Clamped region", "(0.05 < x) && x <= 0.15 || !(y >= 1) == 1"),
                      ("Loads/Body force", "if(t >= 1, max(1, 2, x), 0); atan2 (x, y); t != 1 ? 1 : 2 < 3"),
                      ("Constraints/Clamped region", "if(x < 1, y < 1, z > 1 && x <= 2)"),

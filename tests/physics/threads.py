@@ -44,7 +44,7 @@ with tempfile.TemporaryDirectory() as folder:
                                           *runner.overrides({**kept, "Time/Steps": steps, "Solver/Threads": threads}))
             runner.check(status == 0, error)
     whole, parts, others = [runner.Results(pathlib.Path(folder) / name) for name in ("whole", "parts", "others")]
-    compare("from a checkpoint", whole, parts, 1e-12)
+    compare("from a checkpoint", whole, parts, 1e-9)  # the solver is an iterative one
     solves = [run.summary()["solver"]["solves"] for run in (whole, others)]
     runner.check(solves[1] < solves[0], f"the other number of threads began anew: {solves} solutions")
     compare("from a checkpoint, on one thread", whole, others, 1e-8)
