@@ -11,8 +11,11 @@ import argparse
 import pathlib
 import sys
 
-import meshio
-import numpy
+try:
+    import meshio
+    import numpy
+except ImportError:
+    sys.exit("convert-mesh.py needs meshio: apt-get install python3-meshio python3-h5py python3-netcdf4")
 
 KINDS = {"vertex": 15, "line": 1, "triangle": 2, "quad": 3, "tetra": 4, "hexahedron": 5, "wedge": 6, "pyramid": 7, "line3": 8,
          "triangle6": 9, "quad9": 10, "tetra10": 11, "hexahedron27": 12, "quad8": 16, "hexahedron20": 17, "wedge15": 18}

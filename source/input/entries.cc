@@ -155,7 +155,7 @@ namespace Supple
     const Range whole = Range::whole_number(0);
     const Range id("a boundary id", [=](const std::string &text) {
       const std::string name = dealii::Utilities::trim(text);
-      return whole.match(name) || std::regex_search(name, std::regex("^[^0-9+.-]"));
+      return whole.match(name) || (!name.empty() && !std::isfinite(number(name)));
     });
     return {"boundary ids, or names of groups of the mesh file, set apart by commas, or nothing",
             id,

@@ -112,12 +112,14 @@ namespace Supple
         for (std::size_t k = 1; k < joint->parts.size(); ++k)
           {
             // Both parts move the vertex alike; lengths are measured in those of each part.
-            Eigen::MatrixXd gap = Eigen::MatrixXd::Zero(3, n);
-            for (const auto &[part, sign] :
-                 {std::make_pair(joint->parts[0], 1.), std::make_pair(joint->parts[k], -1.)})
-              gap.middleCols<6>(6 * linkage.place_of(part)) =
-                sign * RigidMotions(parts[part].box).at(joint->place);
-            matrix += gap.transpose() * gap;
+            const unsigned int a = joint->parts[0], b = joint->parts[k];
+            const auto of_a         = RigidMotions(parts[a].box).at(joint->place),
+                       of_b         = RigidMotions(parts[b].box).at(joint->place);
+            const Eigen::Index at_a = 6 * linkage.place_of(a), at_b = 6 * linkage.place_of(b);
+            matrix.block<6, 6>(at_a, at_a) += of_a.transpose() * of_a;
+            matrix.block<6, 6>(at_a, at_b) -= of_a.transpose() * of_b;
+            matrix.block<6, 6>(at_b, at_a) -= of_b.transpose() * of_a;
+            matrix.block<6, 6>(at_b, at_b) += of_b.transpose() * of_b;
           }
       return kernel(matrix);
     }
@@ -185,9 +187,13 @@ namespace Supple
     std::string
     describe(const Linkage &linkage, const Eigen::MatrixXd &motions, const Mesh &mesh)
     {
-      const MeshReport &report = mesh.report;
-      if (mesh.section.axisymmetric() && report.pieces.size() == 1)
-        return "its one rigid motion, along its axis, is free";
+      const MeshReport &report       = mesh.report;
+      const MeshReport::Piece &piece = report.pieces[report.parts[linkage.parts[0]].piece];
+      const bool is_whole            = report.pieces.size() == 1;
+      const std::string of_piece     = " of the piece " + that_of(piece, mesh.section);
+      if (mesh.section.axisymmetric())
+        return (is_whole ? "its one rigid motion" : "the one rigid motion" + of_piece) +
+               ", along its axis, is free";
       std::size_t loosest = 0;
       for (std::size_t p = 1; p < linkage.parts.size(); ++p)
         if (motions.middleRows(6 * p, 6).norm() > motions.middleRows(6 * loosest, 6).norm() + 1e-9)
@@ -197,16 +203,9 @@ namespace Supple
         return "its part " + that_of(report.parts[linkage.parts[loosest]], mesh.section) +
                " hangs together with the rest by vertices or edges alone, as by a hinge, and can " +
                can;
-      const MeshReport::Part &part = report.parts[linkage.parts[0]];
-      const std::string whose =
-        report.pieces.size() == 1
-          ? ""
-          : "of the piece " + that_of(report.pieces[part.piece], mesh.section) + " ";
-      return whose + std::to_string(motions.cols()) + " of its " +
-             (mesh.section.axisymmetric() ? "one"
-              : mesh.section.plane()      ? "three"
-                                          : "six") +
-             " rigid motions are free (it can " + can + ")";
+      return std::to_string(motions.cols()) + (is_whole ? " of its " : " of the ") +
+             (mesh.section.plane() ? "3" : "6") + " rigid motions" + (is_whole ? "" : of_piece) +
+             (motions.cols() == 1 ? " is free (it can " : " are free (it can ") + can + ")";
     }
   } // namespace
 

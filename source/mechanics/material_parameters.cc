@@ -136,12 +136,12 @@ namespace Supple
         unsigned int id = 0;
         if (std::regex_match(item, found, std::regex("([^:]*[^:\\s])\\s*:(.*)")))
           {
-            const auto name      = names.find(found[1]);
-            const bool is_number = std::regex_match(found[1].str(), std::regex("\\d{1,6}"));
-            if (is_number || name != names.end())
+            const auto name  = names.find(found[1]);
+            const bool is_id = Range::whole_number(0).match(found[1]);
+            if (is_id || name != names.end())
               numbers = dealii::Utilities::split_string_list(found[2], ',');
             if (!numbers.empty())
-              id = name != names.end() ? name->second : std::stoul(found[1]);
+              id = is_id ? std::stoul(found[1]) : name->second;
           }
         if (numbers.size() != 3 || !Range::between(0, infinity).match(numbers[0]) ||
             !Range::between(-1, 0.5).match(numbers[1]) ||

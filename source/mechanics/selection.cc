@@ -2,6 +2,7 @@
 
 #include <supple/base/error.h>
 #include <supple/base/expression.h>
+#include <supple/input/entries.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -148,28 +149,32 @@ namespace Supple
   unsigned int
   Selection::boundary_id(const std::string &boundary, const std::string &origin) const
   {
-    const auto &names = body.mesh.boundary_names;
-    const auto found  = names.find(boundary);
-    const bool is_number =
-      !boundary.empty() && boundary.size() < 10 &&
-      boundary.find_first_not_of("0123456789", boundary[0] == '+') == std::string::npos;
-    const unsigned int id = found != names.end() ? found->second
-                            : is_number          ? std::stoul(boundary)
-                                                 : numbers::invalid_unsigned_int;
-    if (body.mesh.boundaries.count(id) > 0)
-      return id;
+    const auto &boundaries = body.mesh.boundaries;
+    const auto &names      = body.mesh.boundary_names;
+    const bool is_id       = Range::whole_number(0).match(boundary);
+    const auto found       = is_id ? names.end() : names.find(boundary);
+    if (is_id && boundaries.count(std::stoul(boundary)) > 0)
+      return std::stoul(boundary);
+    if (found != names.end() && boundaries.count(found->second) > 0)
+      return found->second;
+
     std::string known;
-    for (const auto &[id, n_faces] : body.mesh.boundaries)
+    for (const auto &[id, n_faces] : boundaries)
       known += (known.empty() ? "" : ", ") + std::to_string(id) + " (" + std::to_string(n_faces) +
-               " faces)";
+               (n_faces == 1 ? " face)" : " faces)");
     for (const auto &[name, id] : names)
-      known += ", " + name + " (boundary " + std::to_string(id) + ")";
-    throw InputError(origin +
-                     (is_number ? ": the body has no boundary " + boundary + ". It has: "
-                                : ": '" + boundary +
-                                    "' is no boundary id, nor the name of a group of the mesh "
-                                    "file. The body has: ") +
-                     known + ".");
+      if (boundaries.count(id) > 0)
+        known += ", " + name + " (boundary " + std::to_string(id) + ")";
+    const std::string problem =
+      is_id ? "the body has no boundary " + boundary
+      : found != names.end()
+        ? "no face of the surface has the id " + std::to_string(found->second) + " of the group " +
+            boundary +
+            ": its faces lie inside the body, are in another group of a lesser id too, or have "
+            "another id by Mesh/Boundary regions"
+        : "'" + boundary +
+            "' is no boundary id, nor the name of exactly one group of the mesh file";
+    throw InputError(origin + ": " + problem + ". The body has: " + known + ".");
   }
 
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <set>
+#include <sstream>
 
 namespace Supple
 {
@@ -86,20 +88,14 @@ namespace Supple
       refuse_other_cells(file, 2);
       if (!file.elements[2].empty() && is_flat(file))
         return 2;
-      std::string text =
-        "it has " + std::to_string(file.vertices.size()) + " vertices but no tetrahedra.";
+      std::string text = "it has " + std::to_string(file.vertices.size()) +
+                         (file.vertices.size() == 1 ? " vertex" : " vertices") +
+                         " but no tetrahedra.";
       if (!file.elements[2].empty())
         text += " Triangles alone are a body only if all vertices lie in the plane z = 0.";
       for (const std::string &warning : file.warnings)
         text += " " + warning;
       throw InputError(text);
-    }
-
-
-    std::string
-    group_kind(const unsigned int dimension)
-    {
-      return dimension == 3 ? "volumes" : dimension == 2 ? "surfaces" : "curves";
     }
 
 
@@ -167,8 +163,8 @@ namespace Supple
           n_twice += ids.size() > 1;
         }
       if (n_twice > 0)
-        mesh.warnings.push_back(std::to_string(n_twice) + " cell(s) belong to two physical " +
-                                group_kind(mesh.dimension) + "; the one of the least id counts.");
+        mesh.warnings.push_back(std::to_string(n_twice) +
+                                " cell(s) belong to several groups; the least id counts.");
     }
 
 
@@ -192,11 +188,20 @@ namespace Supple
                        });
       const auto &others = file.others[mesh.dimension - 1];
       if (!others.empty())
-        mesh.warnings.push_back("Of the surface " + in_words(others) + " are not read.");
+        mesh.warnings.push_back("Elements of the surface that are not read: " + in_words(others) +
+                                ".");
     }
 
 
-    /** Those that stand for one id. */
+    bool
+    is_number(const std::string &name)
+    {
+      const std::string digits = name.substr(name.rfind("+", 0) == 0);
+      return !digits.empty() && digits.find_first_not_of("0123456789") == std::string::npos;
+    }
+
+
+    /** Those that stand for one id. A number is an id, whatever else has it as its name. */
     std::map<std::string, unsigned int>
     unique_names(SerialMesh &mesh, const std::map<std::string, std::set<unsigned int>> &names)
     {
@@ -206,6 +211,14 @@ namespace Supple
           mesh.warnings.push_back("The group " + name +
                                   " has a #, comma, semicolon or colon in its name, which mean "
                                   "something else in a parameter file; give its id.");
+        else if (is_number(name))
+          {
+            if (ids.size() > 1 || name != std::to_string(*ids.begin()))
+              mesh.warnings.push_back("A group with the id " + std::to_string(*ids.begin()) +
+                                      " has the name " + name +
+                                      ": in a parameter file a number is an id, not a name; give "
+                                      "the id of the group.");
+          }
         else if (ids.size() == 1)
           unique.emplace(name, *ids.begin());
         else
@@ -214,6 +227,22 @@ namespace Supple
       return unique;
     }
   } // namespace
+
+
+  unsigned int
+  id_of(const double number)
+  {
+    if (!(number >= 0. && number <= std::numeric_limits<int>::max() &&
+          number == std::floor(number)))
+      {
+        std::ostringstream message;
+        message.precision(12);
+        message << number << " can't be an id: an id is a whole number, "
+                << std::numeric_limits<int>::max() << " at most.";
+        throw InputError(message.str());
+      }
+    return number;
+  }
 
 
   SerialMesh

@@ -1,17 +1,13 @@
 #include <supple/mesh/gmsh_reader.h>
 
 #include <supple/base/error.h>
-#include <supple/mesh/msh_reader.h>
-
-#include <deal.II/base/utilities.h>
+#include <supple/mesh/msh_blocks.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
 #include <gmsh.h>
 #include <set>
+#include <sstream>
 
 namespace Supple
 {
@@ -118,32 +114,6 @@ namespace Supple
     }
 
 
-    /** How many elements the file announces, in version 4; 0 if it doesn't say. */
-    std::size_t
-    n_announced(const std::string &file, const MshFormat &format)
-    {
-      std::ifstream stream(file, std::ios::binary);
-      std::size_t n_blocks = 0, n_elements = 0;
-      for (std::string line; std::getline(stream, line);)
-        {
-          if (dealii::Utilities::trim(line) != "$Elements")
-            continue;
-          if (!format.binary)
-            stream >> n_blocks >> n_elements;
-          else
-            {
-              std::array<char, 16> bytes{};
-              stream.read(bytes.data(), bytes.size());
-              if (format.swapped)
-                std::reverse(bytes.begin() + 8, bytes.end());
-              std::memcpy(&n_elements, bytes.data() + 8, 8);
-            }
-          break;
-        }
-      return n_elements;
-    }
-
-
     /** Of a mesh that was cut into parts, the parts that are named, and those that have cells. */
     class Parts
     {
@@ -183,7 +153,7 @@ namespace Supple
     /** Of each entity by itself: elements of several entities may have the same number, and those
      * of another part of a partitioned mesh that are next to one (ghosts) are given twice. */
     void
-    read_elements(FileMesh &mesh, const std::size_t n_announced)
+    read_elements(FileMesh &mesh, const std::size_t n_in_file)
     {
       std::size_t n_loaded = 0;
       Parts parts;
@@ -212,9 +182,9 @@ namespace Supple
         }
       parts.require_all();
       // Gmsh drops elements whose number is taken.
-      if (n_loaded < n_announced)
-        throw InputError("the file announces " + std::to_string(n_announced) +
-                         " elements, of which only " + std::to_string(n_loaded) +
+      if (n_loaded < n_in_file)
+        throw InputError("the file has " + std::to_string(n_in_file) + " elements, of which only " +
+                         std::to_string(n_loaded) +
                          " can be read. Each element needs a number of its own; meshio convert "
                          "(package meshio-tools) numbers them anew.");
     }
@@ -242,10 +212,19 @@ namespace Supple
     const MshFormat format = msh_format_of(file);
     if (format.version < 3.)
       return read_msh(file);
+    if (format.version < 4. || format.version >= 5.)
+      {
+        std::ostringstream message;
+        message << "it is of version " << format.version
+                << " of the format; versions 1, 2 and 4 are read. Save it anew, in Gmsh with "
+                   "Mesh.MshFileVersion = 4.1.";
+        throw InputError(message.str());
+      }
+    const std::size_t n_elements = check_msh_blocks(file, format);
     const GmshSession session(file);
     FileMesh mesh;
     read_vertices(mesh);
-    read_elements(mesh, n_announced(file, format));
+    read_elements(mesh, n_elements);
     read_names(mesh);
     const std::string complaint = GmshSession::last_complaint();
     if (!complaint.empty())

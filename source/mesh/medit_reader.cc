@@ -37,6 +37,19 @@ namespace Supple
                                      {"pyramids", 3, 5, "Pyramid 5"}};
 
 
+    /** What other kinds of cells begin with, such as TetrahedraP3, and their dimensions. */
+    const std::vector<std::pair<std::string, unsigned int>> stems = {{"tetrahedra", 3},
+                                                                     {"hexahedra", 3},
+                                                                     {"hexaedra", 3},
+                                                                     {"prisms", 3},
+                                                                     {"pentahedra", 3},
+                                                                     {"pyramids", 3},
+                                                                     {"polyhedra", 3},
+                                                                     {"triangles", 2},
+                                                                     {"quadrilaterals", 2},
+                                                                     {"polygons", 2}};
+
+
     /** The words of a text; # begins a comment. */
     class Words
     {
@@ -90,6 +103,23 @@ namespace Supple
         return value;
       }
 
+      /** @throws InputError if a list goes on after what is announced */
+      void
+      require_end(const std::string &of, const std::size_t announced) const
+      {
+        if (!word.empty() && !is_keyword())
+          throw InputError("there are more " + of + " than the " + std::to_string(announced) +
+                           " that are announced.");
+      }
+
+      /** Goes to the next keyword. */
+      void
+      skip()
+      {
+        while (!word.empty() && !is_keyword())
+          next();
+      }
+
     private:
       std::ifstream stream;
     };
@@ -98,6 +128,8 @@ namespace Supple
     void
     read_vertices(FileMesh &mesh, Words &words, const unsigned int dimension)
     {
+      if (!mesh.vertices.empty())
+        throw InputError("there are two sections of vertices.");
       const std::size_t n = words.count("vertices");
       for (std::size_t v = 1; v <= n; ++v)
         {
@@ -107,6 +139,7 @@ namespace Supple
           words.number("vertices"); // a reference
           mesh.vertices.emplace_hint(mesh.vertices.end(), v, place);
         }
+      words.require_end("vertices", n);
     }
 
 
@@ -128,16 +161,27 @@ namespace Supple
                 element.vertices[v] = vertex;
             }
           const double reference = words.number(kind.keyword);
-          if (reference > 0. && reference < 1e9)
-            element.ids.push_back(reference);
+          if (reference > 0.)
+            element.ids.push_back(id_of(reference));
           n_negative += reference < 0.;
           if (kind.other.empty())
             mesh.elements[kind.dimension].push_back(element);
         }
-      if (!words.word.empty() && !words.is_keyword())
-        throw InputError("there are more " + kind.keyword + " than the " + std::to_string(n) +
-                         " that are announced.");
+      words.require_end(kind.keyword, n);
       return n_negative;
+    }
+
+
+    /** A section of another name: cells of unknown kinds are counted, Corners or Normals are not of
+     * interest. */
+    void
+    skip_section(FileMesh &mesh, Words &words, const std::string &keyword)
+    {
+      for (const auto &[stem, dimension] : stems)
+        if (keyword.rfind(stem, 0) == 0)
+          if (const std::size_t n = words.count(keyword); n > 0)
+            mesh.others[dimension][keyword] += n;
+      words.skip();
     }
   } // namespace
 
@@ -171,9 +215,8 @@ namespace Supple
           read_vertices(mesh, words, dimension);
         else if (kind != kinds.end())
           n_negative += read_elements(mesh, words, *kind);
-        else // such as Corners or Normals
-          while (!words.word.empty() && !words.is_keyword())
-            words.next();
+        else
+          skip_section(mesh, words, keyword);
       }
     if (n_negative > 0)
       mesh.warnings.push_back(std::to_string(n_negative) +

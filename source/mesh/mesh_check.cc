@@ -139,10 +139,9 @@ namespace Supple
         if (!of.empty())
           report.warnings.push_back(std::to_string(of.size()) + " " + text);
       };
-      const std::string kind   = mesh.dimension == 3 ? "triangle(s)" : "edge(s)";
-      const std::string groups = mesh.dimension == 3 ? "physical surfaces" : "physical curves";
-      warn(inside, kind + " of " + groups + " lie inside the body and are not used.");
-      warn(twice, kind + " belong to two " + groups + "; the first one counts.");
+      const std::string kind = mesh.dimension == 3 ? "triangle(s)" : "edge(s)";
+      warn(inside, kind + " of groups lie inside the body and are not used.");
+      warn(twice, kind + " belong to several groups; the least id counts.");
       warn(strange, kind + " are no face of a cell and are not used.");
       return given;
     }
@@ -392,10 +391,12 @@ namespace Supple
            " cell(s) are slivers of a quality below 0.1; the worst is " +
            place(mesh, report.worst_cell) + ".");
     warn(report.unused_vertices > 0,
-         std::to_string(report.unused_vertices) + " vertices are in no cell.");
+         std::to_string(report.unused_vertices) +
+           (report.unused_vertices == 1 ? " vertex is" : " vertices are") + " in no cell.");
     warn(report.double_vertices > 0,
          std::to_string(report.double_vertices) +
-           " vertices lie at the place of another one: the body may be cut open there.");
+           (report.double_vertices == 1 ? " vertex lies" : " vertices lie") +
+           " at the place of another one: the body may be cut open there.");
     warn(report.pieces.size() > 1,
          "The body is in " + std::to_string(report.pieces.size()) +
            " pieces that do not hang together.");

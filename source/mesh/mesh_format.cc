@@ -50,9 +50,12 @@ namespace Supple
     std::string
     how_to_convert(const std::string &file)
     {
-      const std::string to = std::filesystem::path(file).replace_extension(".msh").string();
-      return "Convert it (package meshio-tools) by\n  meshio convert " + shell_word(file) + " " +
-             shell_word(to) + " --output-format gmsh22\nand take the ending .msh in Mesh/File.";
+      const std::string to    = std::filesystem::path(file).replace_extension(".msh").string();
+      const std::string files = shell_word(file) + " " + shell_word(to);
+      return "Convert it by the script of Supple (package python3-meshio)\n"
+             "  scripts/convert-mesh.py " +
+             files + "\nor, without names of groups (package meshio-tools), by\n  meshio convert " +
+             files + " --output-format gmsh22\nand take the ending .msh in Mesh/File.";
     }
 
 

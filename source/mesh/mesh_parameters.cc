@@ -81,16 +81,17 @@ namespace Supple
   MeshParameters::declare_file(ParameterHandler &prm)
   {
     const Range positive = Range::between(0, infinity);
-    add(prm,
-        "File",
-        file,
-        "none",
-        dealii::Patterns::Anything(),
-        "Mesh file (.msh, .vtk, .unv, .mesh, .bdf, .nas), relative to the folder of the scene. "
-        "Physical volumes become material ids and physical surfaces boundary ids, as do groups, "
-        "references and properties of other formats; names of groups may stand for their ids in "
-        "other entries. A file without tetrahedra, but with triangles in the plane z = 0, is a "
-        "plane body: physical surfaces become material ids and physical curves boundary ids.");
+    add(
+      prm,
+      "File",
+      file,
+      "none",
+      dealii::Patterns::Anything(),
+      "Mesh file (.msh, .vtk, .vtu, .unv, .mesh, .bdf, .nas), relative to the folder of the scene. "
+      "Physical volumes become material ids and physical surfaces boundary ids, as do groups, "
+      "references and properties of other formats; names of groups may stand for their ids in "
+      "other entries. A file without tetrahedra, but with triangles in the plane z = 0, is a "
+      "plane body: physical surfaces become material ids and physical curves boundary ids.");
     add(prm,
         "Scale",
         scale,

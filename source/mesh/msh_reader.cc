@@ -5,6 +5,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -117,7 +118,7 @@ namespace Supple
         const std::string words = line();
         if (words.empty() || words.size() > 12 ||
             words.find_first_not_of("0123456789") != std::string::npos)
-          throw InputError("'" + words + "' is no number of " + of + ".");
+          throw InputError("there should be the number of " + of + ", not '" + words + "'.");
         return std::stoul(words);
       }
 
@@ -165,7 +166,7 @@ namespace Supple
         if (!(value >= 0. && value <= 1e15 && value == std::floor(value)))
           {
             std::ostringstream message;
-            message << value << " is no number of a node.";
+            message << value << " is not the number of a node.";
             throw InputError(message.str());
           }
         return value;
@@ -178,11 +179,13 @@ namespace Supple
                          ", but has " + found + ".");
       }
 
-      /** What follows a list that is read to its end. */
+      /** Refuses what follows a list that is read to its end. */
       void
       require_end(const std::string &of, const std::size_t announced)
       {
-        if (!format.binary && !numbers().empty())
+        while (position < text.size() && std::isspace(static_cast<unsigned char>(text[position])))
+          ++position;
+        if (position < text.size() && text[position] != '$')
           refuse_count(of, announced, "more");
       }
 
@@ -217,6 +220,8 @@ namespace Supple
       void
       read_elements()
       {
+        if (has_elements)
+          throw InputError("there are two sections of elements.");
         has_elements        = true;
         const std::size_t n = count("elements");
         if (format.binary)
@@ -253,7 +258,8 @@ namespace Supple
       void
       read_blocks(const std::size_t n)
       {
-        for (std::size_t done = 0; done < n;)
+        std::size_t done = 0;
+        while (done < n)
           {
             const long kind = packed<std::int32_t>(), n_elements = packed<std::int32_t>(),
                        n_tags = packed<std::int32_t>();
@@ -277,6 +283,8 @@ namespace Supple
                 add(number, kind, group, nodes);
               }
           }
+        if (done > n)
+          refuse_count("elements", n, std::to_string(done));
       }
 
       void
@@ -304,8 +312,8 @@ namespace Supple
         FileMesh::Element element{static_cast<std::size_t>(std::max(number, 0.)), {}, {}};
         std::transform(nodes.begin(), nodes.end(), element.vertices.begin(), whole);
         // A negative group means that the element is turned around.
-        if (const double id = std::abs(group); id > 0. && id < 4e9)
-          element.ids.push_back(id);
+        if (group != 0.)
+          element.ids.push_back(id_of(std::abs(group)));
         mesh.elements[found->second.dimension].push_back(element);
       }
 
@@ -356,6 +364,14 @@ namespace Supple
         return format;
       }
     return format;
+  }
+
+
+  unsigned int
+  n_nodes_of_kind(const long kind)
+  {
+    const auto found = kinds.find(kind);
+    return found == kinds.end() ? 0 : found->second.n_nodes;
   }
 
 

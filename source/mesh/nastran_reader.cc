@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <set>
 
 namespace Supple
@@ -49,7 +50,7 @@ namespace Supple
           return preset;
         if (text.empty() || text.size() > 18 ||
             text.find_first_not_of("0123456789") != std::string::npos)
-          refuse("'" + text + "' in field " + std::to_string(i + 2) + " is no whole number.");
+          refuse("'" + text + "' in field " + std::to_string(i + 2) + " is not a whole number.");
         return std::stoul(text);
       }
 
@@ -65,7 +66,7 @@ namespace Supple
         char *end          = nullptr;
         const double value = std::strtod(text.c_str(), &end);
         if (*end != '\0' || !std::isfinite(value))
-          refuse("'" + field(i) + "' in field " + std::to_string(i + 2) + " is no number.");
+          refuse("'" + field(i) + "' in field " + std::to_string(i + 2) + " is not a number.");
         return value;
       }
     };
@@ -130,17 +131,20 @@ namespace Supple
       void
       read(const std::filesystem::path &file, const unsigned int depth = 0)
       {
-        if (depth > 8)
-          throw InputError("INCLUDE of files that include each other.");
         std::ifstream stream(file);
         if (!stream)
           throw InputError("the included file " + file.string() + " can't be read.");
-        const bool has_head = depth == 0 && begins_bulk(file);
-        bool in_bulk        = !has_head;
+        const bool has_head = begins_bulk(file, depth);
+        if (depth == 0)
+          in_bulk = !has_head;
         unsigned int number = 0;
         for (std::string line; std::getline(stream, line) && !ended;)
           {
             ++number;
+            if (line.rfind("\xEF\xBB\xBF", 0) == 0)
+              throw InputError(file.filename().string() +
+                               " begins with a byte order mark, three bytes that some editors "
+                               "write. Save it without (as UTF-8 without BOM).");
             line                    = without_tabs(line.substr(0, line.find('$')));
             line                    = line.substr(0, line.find_last_not_of(" \r\n") + 1);
             const std::string start = capitals(trim(line)).substr(0, 8);
@@ -154,19 +158,33 @@ namespace Supple
             else if (in_bulk && !start.empty())
               add(capitals(line), place);
           }
-        may_be_cut = has_head && !ended;
+        may_be_cut = depth == 0 && has_head && !ended;
       }
 
     private:
-      bool ended = false;
+      bool ended   = false;
+      bool in_bulk = false; ///< or still in the case control
 
+      /** Whether it has the line BEGIN BULK, or one of the files that it includes. */
       static bool
-      begins_bulk(const std::filesystem::path &file)
+      begins_bulk(const std::filesystem::path &file, const unsigned int depth)
       {
+        if (depth > 8)
+          throw InputError("INCLUDE of files that include each other.");
         std::ifstream stream(file);
+        unsigned int number = 0;
         for (std::string line; std::getline(stream, line);)
-          if (capitals(trim(line.substr(0, 200))).rfind("BEGIN", 0) == 0)
-            return true;
+          {
+            ++number;
+            line = trim(line.substr(0, std::min(line.find('$'), line.find('\r'))));
+            const std::string start = capitals(line.substr(0, 8));
+            if (start.rfind("BEGIN", 0) == 0)
+              return true;
+            const std::string place = file.filename().string() + ", line " + std::to_string(number);
+            if (start.rfind("INCLUDE", 0) == 0 &&
+                begins_bulk(included(line, file, place), depth + 1))
+              return true;
+          }
         return false;
       }
 
@@ -187,6 +205,14 @@ namespace Supple
         return path;
       }
 
+      /** Between commas the mark of a continuation line may come before the last field. */
+      static bool
+      is_mark(const std::string &field)
+      {
+        return !field.empty() && field[0] == '+' &&
+               (field.size() == 1 || std::isalpha(static_cast<unsigned char>(field[1])));
+      }
+
       void
       add(const std::string &line, const std::string &place)
       {
@@ -197,15 +223,13 @@ namespace Supple
         const bool wide        = name.find('*') != std::string::npos;
         const std::size_t most = wide ? 4 : 8;
         std::string mark;
-        if (fields.size() == most + 2)
+        if (fields.size() == most + 2 || (fields.size() > 1 && is_mark(fields.back())))
           {
             mark = fields.back();
             fields.pop_back();
           }
         if (fields.size() < most + 1)
           fields.resize(most + 1);
-        else if (fields.back() == "+")
-          fields.pop_back();
         if (!name.empty() && name[0] != '+' && name[0] != '*')
           list.push_back({trim(name.substr(0, name.find('*'))), {}, place, ""});
         else if (list.empty())
@@ -312,7 +336,7 @@ namespace Supple
                       " is given twice. Each element needs a number of its own.");
         if (const std::size_t property = card.whole_number(1, element.number))
           {
-            if (property > 4000000000)
+            if (property > std::numeric_limits<int>::max())
               card.refuse("the number of the property, " + std::to_string(property) +
                           ", is too large.");
             element.ids.push_back(property);

@@ -24,6 +24,15 @@ namespace Supple
     };
 
 
+    struct UniversalGroup
+    {
+      unsigned int number;
+      std::string name;
+      std::vector<std::size_t> members; ///< labels of elements
+      bool has_vertices = false;
+    };
+
+
     class UniversalReader
     {
     public:
@@ -35,7 +44,9 @@ namespace Supple
         while (next())
           if (is_end())
             read_dataset();
+        require_basic_systems();
         set_ids();
+        warn_of_groups();
       }
 
     private:
@@ -44,10 +55,10 @@ namespace Supple
       unsigned int number = 0; ///< of the line
       std::map<std::size_t, UniversalElement> elements;
       std::set<long> other_systems; ///< labels of coordinate systems that are not the basic one
-      std::set<unsigned int> group_numbers;
-      std::map<std::size_t, std::vector<unsigned int>> groups; ///< of elements
-      std::map<unsigned int, std::string> group_names;
-      std::size_t n_vertex_groups = 0;
+      std::map<long, unsigned int>
+        systems_of_vertices;                ///< and the line of the first vertex of each
+      std::set<std::size_t> other_elements; ///< labels of those that are not read
+      std::vector<UniversalGroup> groups;
 
       [[noreturn]] void
       refuse(const std::string &why) const
@@ -135,9 +146,7 @@ namespace Supple
       read_vertex()
       {
         const auto labels = whole_numbers(2);
-        if (other_systems.count(labels[1]) > 0)
-          refuse("a vertex is given in the coordinate system " + std::to_string(labels[1]) +
-                 ". Write all vertices in the basic system.");
+        systems_of_vertices.emplace(labels[1], number);
         require_next();
         std::string text = line;
         std::replace(text.begin(), text.end(), 'D', 'E');
@@ -210,6 +219,8 @@ namespace Supple
             vertices.insert(vertices.end(), more.begin(), more.end());
           }
         require_next();
+        if (dimension == 0 || n_vertices != dimension + 1)
+          other_elements.insert(label(words[0]));
         if (dimension == 0)
           return;
         if (n_vertices != dimension + 1)
@@ -235,56 +246,144 @@ namespace Supple
       read_group(const std::size_t n_numbers)
       {
         const auto words = whole_numbers(2);
-        // 0 means that an element has no id.
-        unsigned int id = std::max<std::size_t>(label(words.front()), 1);
-        while (!group_numbers.insert(id).second)
-          ++id;
+        UniversalGroup group{id_of(label(words.front())), "", {}};
         require_next();
-        group_names[id] = dealii::Utilities::trim(line);
+        group.name = dealii::Utilities::trim(line);
         std::vector<long> members;
         while (members.size() < n_numbers * static_cast<std::size_t>(std::max(words.back(), 0l)))
           {
             require_next();
             if (is_end())
-              refuse("the file ends within the group " + group_names[id] + ".");
+              refuse("the file ends within the group " + group.name + ".");
             const auto more = whole_numbers(n_numbers);
             members.insert(members.end(), more.begin(), more.end());
           }
-        bool has_vertices = false;
         for (std::size_t m = 0; m + 1 < members.size(); m += n_numbers)
           if (members[m] == 8)
-            groups[members[m + 1]].push_back(id);
+            group.members.push_back(label(members[m + 1]));
           else
-            has_vertices = has_vertices || members[m] == 7;
-        n_vertex_groups += has_vertices;
+            group.has_vertices = group.has_vertices || members[m] == 7;
+        groups.push_back(group);
         require_next();
+      }
+
+      void
+      require_basic_systems()
+      {
+        for (const auto &[system, first_line] : systems_of_vertices)
+          if (other_systems.count(system) > 0)
+            {
+              number = first_line;
+              refuse("a vertex is given in the coordinate system " + std::to_string(system) +
+                     ". Write all vertices in the basic system.");
+            }
+      }
+
+      /** Those members of a group that are elements of a dimension. */
+      std::vector<std::size_t>
+      members_of(const UniversalGroup &group, const unsigned int dimension) const
+      {
+        std::vector<std::size_t> members;
+        for (const std::size_t member : group.members)
+          if (const auto found = elements.find(member);
+              found != elements.end() && found->second.dimension == dimension)
+            members.push_back(member);
+        return members;
+      }
+
+      /** The id is the number, unless that is 0, which means no id, or that of another group. */
+      unsigned int
+      id_of_group(const UniversalGroup &group,
+                  const std::map<unsigned int, std::string> &owners,
+                  std::set<unsigned int> &taken)
+      {
+        const auto owner = owners.find(group.number);
+        if (group.number > 0 && (owner == owners.end() || owner->second == group.name))
+          return group.number;
+        const unsigned int id = *taken.rbegin() + 1;
+        taken.insert(id);
+        mesh.warnings.push_back(
+          (group.number == 0 ? "The group " + group.name + " has the number 0, which means no id"
+                             : "The groups " + owner->second + " and " + group.name +
+                                 " have the same number " + std::to_string(group.number)) +
+          "; " + group.name + " gets the id " + std::to_string(id) + ".");
+        return id;
+      }
+
+      void
+      set_ids_of_groups(const unsigned int dimension)
+      {
+        std::set<unsigned int> taken = {0};
+        for (const UniversalGroup &group : groups)
+          if (!members_of(group, dimension).empty())
+            taken.insert(group.number);
+        std::map<unsigned int, std::string> owners;
+        for (const UniversalGroup &group : groups)
+          {
+            const auto members = members_of(group, dimension);
+            if (members.empty())
+              continue;
+            const unsigned int id = id_of_group(group, owners, taken);
+            owners.emplace(id, group.name);
+            mesh.names[dimension][group.name].insert(id);
+            for (const std::size_t member : members)
+              if (auto &ids = elements.at(member).element.ids;
+                  std::count(ids.begin(), ids.end(), id) == 0)
+                ids.push_back(id);
+          }
+      }
+
+      /** Of those without groups: the material, or the physical property if that alone differs. */
+      void
+      set_other_ids(const unsigned int dimension)
+      {
+        std::set<std::size_t> materials, properties;
+        bool has_groups = false;
+        for (const auto &[label, element] : elements)
+          if (element.dimension == dimension)
+            {
+              materials.insert(element.material);
+              properties.insert(element.property);
+              has_groups = has_groups || !element.element.ids.empty();
+            }
+        const bool by_property =
+          materials.size() < 2 && (properties.size() > 1 || materials.count(0) > 0);
+        for (auto &[label, element] : elements)
+          if (const std::size_t id = by_property ? element.property : element.material;
+              element.dimension == dimension && !has_groups && id > 0)
+            element.element.ids.push_back(id_of(id));
       }
 
       void
       set_ids()
       {
-        std::set<unsigned int> with_groups;
-        bool has_materials = false;
+        for (unsigned int dimension = 1; dimension <= 3; ++dimension)
+          {
+            set_ids_of_groups(dimension);
+            set_other_ids(dimension);
+          }
         for (const auto &[label, element] : elements)
+          mesh.elements[element.dimension].push_back(element.element);
+      }
+
+      void
+      warn_of_groups()
+      {
+        std::size_t n_of_vertices = 0;
+        for (const UniversalGroup &group : groups)
           {
-            if (groups.count(label) > 0)
-              with_groups.insert(element.dimension);
-            has_materials = has_materials || element.material > 0;
+            n_of_vertices += group.has_vertices;
+            const auto n_missing =
+              std::count_if(group.members.begin(), group.members.end(), [&](const auto member) {
+                return elements.count(member) == 0 && other_elements.count(member) == 0;
+              });
+            if (n_missing > 0)
+              mesh.warnings.push_back("The group " + group.name + " names " +
+                                      std::to_string(n_missing) +
+                                      " element(s) that are not in the file.");
           }
-        for (auto &[label, element] : elements)
-          {
-            auto &ids = element.element.ids;
-            if (groups.count(label) > 0)
-              ids = groups[label];
-            const std::size_t id = has_materials ? element.material : element.property;
-            if (with_groups.count(element.dimension) == 0 && id > 0)
-              ids.push_back(id);
-            for (const unsigned int group : groups[label])
-              mesh.names[element.dimension][group_names[group]].insert(group);
-            mesh.elements[element.dimension].push_back(element.element);
-          }
-        if (n_vertex_groups > 0)
-          mesh.warnings.push_back(std::to_string(n_vertex_groups) +
+        if (n_of_vertices > 0)
+          mesh.warnings.push_back(std::to_string(n_of_vertices) +
                                   " group(s) of vertices are not read; groups of faces are.");
       }
     };

@@ -110,11 +110,23 @@ namespace Supple
       const VtkGrid::Field *ghosts = nullptr;
       std::size_t n_ghosts = 0, n_negative = 0;
 
-      /** The field of ids is the one that has the likeliest name. */
+      static bool
+      is_ghost_field(const VtkGrid::Field &field)
+      {
+        const std::string small = small_letters(field.name);
+        return small == "vtkghosttype" || small == "vtkghostlevels";
+      }
+
+      static std::size_t
+      rank_of(const VtkGrid::Field &field)
+      {
+        return std::find(id_names.begin(), id_names.end(), small_letters(field.name)) -
+               id_names.begin();
+      }
+
       void
       find_fields(const std::size_t n_cells)
       {
-        std::size_t least_rank = id_names.size();
         std::string names;
         for (const VtkGrid::Field &field : grid.fields)
           {
@@ -122,30 +134,53 @@ namespace Supple
               throw InputError("the field " + field.name + " has " +
                                std::to_string(field.values.size()) + " values for " +
                                std::to_string(n_cells) + " cells.");
-            const std::string small = small_letters(field.name);
-            if (small == "vtkghosttype" || small == "vtkghostlevels")
-              {
-                ghosts = &field;
-                continue;
-              }
-            names += (names.empty() ? "" : ", ") + field.name;
-            const std::size_t rank =
-              std::find(id_names.begin(), id_names.end(), small) - id_names.begin();
-            if (rank >= least_rank || field.n_columns != 1)
-              continue;
-            if (!whole(field.values))
-              mesh.warnings.push_back("The field " + field.name +
-                                      " has values that are no ids; it is not read.");
+            if (is_ghost_field(field))
+              ghosts = &field;
             else
-              {
-                least_rank = rank;
-                ids        = &field;
-              }
+              names += (names.empty() ? "" : ", ") + field.name;
           }
+        choose_ids();
         if (!ids && !names.empty())
           mesh.warnings.push_back("Of the fields of cells (" + names +
                                   ") none has the name of ids, such as MaterialIds; all cells "
                                   "have the material id 0.");
+      }
+
+      /** The field of ids is the one that has the likeliest name, of those that are not all 0. */
+      void
+      choose_ids()
+      {
+        std::vector<const VtkGrid::Field *> possible;
+        for (const VtkGrid::Field &field : grid.fields)
+          if (rank_of(field) == id_names.size() || field.n_columns != 1)
+            continue;
+          else if (whole(field.values))
+            possible.push_back(&field);
+          else
+            mesh.warnings.push_back("The field " + field.name +
+                                    " has values that are no ids; it is not read.");
+        std::stable_sort(possible.begin(), possible.end(), [](const auto *a, const auto *b) {
+          return rank_of(*a) < rank_of(*b);
+        });
+        std::stable_partition(possible.begin(), possible.end(), has_ids);
+        if (possible.empty())
+          return;
+        ids = possible[0];
+        std::string others;
+        for (std::size_t i = 1; i < possible.size() && has_ids(possible[i]); ++i)
+          if (possible[i]->values != ids->values)
+            others += (others.empty() ? "" : ", ") + possible[i]->name;
+        if (!others.empty())
+          mesh.warnings.push_back("Several fields of cells could be the ids: " + ids->name +
+                                  " is taken, not " + others + ".");
+      }
+
+      static bool
+      has_ids(const VtkGrid::Field *field)
+      {
+        return std::any_of(field->values.begin(), field->values.end(), [](const double value) {
+          return value != 0.;
+        });
       }
 
       bool

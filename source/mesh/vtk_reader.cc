@@ -74,7 +74,7 @@ namespace Supple
         const std::string next = word();
         if (next.empty() || next.size() > 12 ||
             next.find_first_not_of("0123456789") != std::string::npos)
-          throw InputError("'" + next + "' is no number of " + of + ".");
+          throw InputError("there should be the number of " + of + ", not '" + next + "'.");
         return std::stoul(next);
       }
 
@@ -169,15 +169,22 @@ namespace Supple
           return packed_as<double>(of);
         if (type == "float")
           return packed_as<float>(of);
-        if (type == "int" || type == "vtkIdType" || type == "unsigned_int")
+        if (type == "int" || type == "vtkIdType")
           return packed_as<std::int32_t>(of);
-        if (type == "vtktypeint64" || type == "long" || type == "unsigned_long" ||
-            type == "vtktypeuint64")
+        if (type == "unsigned_int")
+          return packed_as<std::uint32_t>(of);
+        if (type == "vtktypeint64" || type == "long")
           return packed_as<std::int64_t>(of);
-        if (type == "short" || type == "unsigned_short")
+        if (type == "vtktypeuint64" || type == "unsigned_long")
+          return packed_as<std::uint64_t>(of);
+        if (type == "short")
           return packed_as<std::int16_t>(of);
-        if (type == "char" || type == "unsigned_char" || type == "signed_char")
+        if (type == "unsigned_short")
+          return packed_as<std::uint16_t>(of);
+        if (type == "char" || type == "signed_char")
           return packed_as<signed char>(of);
+        if (type == "unsigned_char")
+          return packed_as<unsigned char>(of);
         throw InputError("numbers of the type " + type + " are not read.");
       }
     };

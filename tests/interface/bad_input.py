@@ -107,9 +107,9 @@ refused([runner.BAR, "--set", "Time/Problem=static", "--set", "Damping/Viscous=1
 refused([runner.BAR, "--set", "Time/Problem=static"], "Start/Velocity", "static")
 
 static = [runner.BAR, "--set", "Time/Problem=static", "--set", "Start/Velocity=0; 0; 0", "--set", "Constraints/Clamped boundaries="]
-refused(static, "6 of its six rigid motions are free", "Hold a boundary")
-refused([*static, "--set", "Constraints/Boundaries held along y=3"], "3 of its six rigid motions are free")
-refused([*static, "--set", "Constraints/Clamped region=x == 0 && y == 0 && z == 0"], "3 of its six rigid")
+refused(static, "6 of its 6 rigid motions are free", "Hold a boundary")
+refused([*static, "--set", "Constraints/Boundaries held along y=3"], "3 of its 6 rigid motions are free")
+refused([*static, "--set", "Constraints/Clamped region=x == 0 && y == 0 && z == 0"], "3 of its 6 rigid")
 
 # Starts whose energies are beyond the largest number.
 for entry, values in [("Start/Velocity", ["0; 0; -1e155", "-1e160; 0; 0"]), ("Start/Displacement", ["1e200*x; 0; 0"])]:

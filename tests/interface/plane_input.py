@@ -43,9 +43,9 @@ for split, worst in [("falling", "0.69282"), ("rising", "0.69282"), ("alternatin
 
 # What nature holds counts neither as unknown nor as support.
 static = {"Time/Problem": "static", "Constraints/Clamped boundaries": ""}
-refused(static, "3 of its three rigid motions are free", "Hold a boundary")
-refused({**static, "Constraints/Boundaries held along y": 2}, "1 of its three rigid motions are free")
-refused({**static, "Constraints/Clamped region": "x == 0 && y == 0"}, "1 of its three rigid motions are free")
+refused(static, "3 of its 3 rigid motions are free", "Hold a boundary")
+refused({**static, "Constraints/Boundaries held along y": 2}, "1 of its 3 rigid motions is free")
+refused({**static, "Constraints/Clamped region": "x == 0 && y == 0"}, "1 of its 3 rigid motions is free")
 refused({**static, "Plane/Model": "axisymmetric"}, "its one rigid motion, along its axis, is free")
 refused({**static, "Plane/Model": "axisymmetric", "Constraints/Boundaries held along x": 1}, "along its axis, is free")
 accepted({**static, "Plane/Model": "axisymmetric", "Constraints/Boundaries held along y": 2})

@@ -45,10 +45,10 @@ def refused(settings, *words):
 # One glued to a wall, the other standing on a smooth floor.
 two = write("two.msh", (0, 0, 0), (3, 0, 0))
 floor = "1: x < 1e-9; 2: x > 2.9 && z < 1e-9"
-refused(settings_of(two, floor, **{"Constraints/Boundaries held along z": 2}), "of the piece of 6 cells in [3, 4] x [0, 1] x [0, 1] m",
-        "3 of its six rigid motions are free (it can slide along x and y and turn about z)")
+refused(settings_of(two, floor, **{"Constraints/Boundaries held along z": 2}),
+        "3 of the 6 rigid motions of the piece of 6 cells in [3, 4] x [0, 1] x [0, 1] m are free (it can slide along x and y and turn about z)")
 refused(settings_of(two, floor + "; 3: x > 2.9 && y < 1e-9", **{"Constraints/Boundaries held along z": 2, "Constraints/Boundaries held along y": 3}),
-        "1 of its six rigid motions are free (it can slide along x)")
+        "1 of the 6 rigid motions of the piece of 6 cells in [3, 4] x [0, 1] x [0, 1] m is free (it can slide along x)")
 regions = floor + "; 3: x > 3.9; 4: x > 2.9 && y < 1e-9; 5: x > 2.9 && z > 0.99"
 held = settings_of(two, regions, **{
     "Constraints/Boundaries held along z": 2, "Constraints/Boundaries held along y": 4, "Constraints/Boundaries held along x": 3,
@@ -63,11 +63,33 @@ joint = write("joint.msh", (0, 0, 0), (1, 1, 1))
 refused(settings_of(joint), "its part of 6 cells in [1, 2] x [1, 2] x [1, 2] m", "turn about x, y and z")
 runner.simulate(scene, settings_of(hinge, **{"Constraints/Boundaries held along z": 2, "Mesh/Boundary regions": "1: x < 1e-9; 2: x > 1.99"}))
 
+# Around an axis a body has one rigid motion, in how many parts it ever hangs together.
+def write_rings(name, *squares):
+    """Unit squares with these corners of least coordinates, each of two triangles."""
+    number, cells = {}, []
+    for x, y in squares:
+        a, b, c, d = [number.setdefault((x + i % 2, y + i // 2), len(number) + 1) for i in range(4)]
+        cells += [[a, b, d], [a, d, c]]
+    text = f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(number)}\n" + "".join(f"{i} {x} {y} 0\n" for (x, y), i in number.items())
+    text += f"$EndNodes\n$Elements\n{len(cells)}\n" + "".join(f"{i} 2 2 1 1 {' '.join(map(str, cell))}\n" for i, cell in enumerate(cells, 1))
+    (folder / name).write_text(text + "$EndElements\n")
+    return name
+
+
+ring = {"Plane/Model": "axisymmetric", "Loads/Gravity": "0, -9.81, 0"}
+hung = write_rings("hung.msh", (1, 0), (2, 1))
+refused(settings_of(hung, "", **{**ring, "Constraints/Clamped boundaries": ""}), "its one rigid motion, along its axis, is free")
+runner.simulate(scene, settings_of(hung, "1: y < 1e-9", **ring))
+rings = write_rings("rings.msh", (1, 0), (3, 0))
+refused(settings_of(rings, "1: x < 2.1 && y < 1e-9", **ring), "the one rigid motion of the piece of 2 cells in [3, 4] x [0, 1] m, along its axis, is free")
+refused(settings_of(rings, "1: x < 2.1 && y < 1e-9; 2: x > 2.9 && y < 1e-9", **{**ring, "Plane/Model": "plane strain", "Constraints/Boundaries held along y": 2}),
+        "1 of the 3 rigid motions of the piece of 2 cells in [3, 4] x [0, 1] m is free (it can slide along x)")
+
 # One cube alone; and a dynamic scene, which may fall.
 one = write("one.msh", (0, 0, 0))
 refused(settings_of(one, "1: z < 1e-9", **{"Constraints/Clamped boundaries": "", "Constraints/Boundaries held along z": 1}),
-        "3 of its six rigid motions are free (it can slide along x and y and turn about z)")
-refused(settings_of(one, "", **{"Constraints/Clamped boundaries": ""}), "6 of its six rigid motions are free")
+        "3 of its 6 rigid motions are free (it can slide along x and y and turn about z)")
+refused(settings_of(one, "", **{"Constraints/Clamped boundaries": ""}), "6 of its 6 rigid motions are free")
 refused(settings_of(one, "", **{"Constraints/Clamped boundaries": "", "Constraints/Clamped region": "abs(x - y) < 1e-9 && z < 1e-9"}),
-        "1 of its six rigid motions are free (it can turn about (")
+        "1 of its 6 rigid motions is free (it can turn about (")
 runner.simulate(scene, {**settings_of(two, floor), "Time/Problem": "dynamic", "Time/Steps": 2})

@@ -118,14 +118,50 @@ refused(save("nowhere.msh", whole.replace("2 3 4 5\n", "2 3 4 6\n")), "node 6, w
 refused(save("three.msh", whole.replace("1 4 2 1 1 1 2 3 4\n", "1 4 2 1 1 1 2 3\n")), "element 1 has 3 nodes", "should be 4")
 refused(save("word.msh", whole.replace("2 1 0 0\n", "2 1 0 o\n")), "'2 1 0 o'")
 
+refused(save("twice.msh", whole.replace("$EndElements\n", "$EndElements\n$Elements\n1\n5 4 2 7 7 1 2 3 5\n$EndElements\n")), "two sections of elements")
+refused(save("large.msh", whole.replace("1 4 2 1 1 1 2 3 4", "1 4 2 3000000000 1 1 2 3 4")), "3000000000 can't be an id", "2147483647 at most")
+refused(save("version.msh", whole.replace("2.2 0 8", "3 0 8")), "version 3", "versions 1, 2 and 4 are read")
+packed = (folder / "binary.msh").read_bytes()
+for name, before, after, words in [("fewer-packed.msh", b"$Elements\n4", b"$Elements\n3", "announces 3 elements, but has more"),
+                                   ("nodes-packed.msh", b"$Nodes\n5", b"$Nodes\n4", "announces 4 nodes, but has more")]:
+    (folder / name).write_bytes(packed.replace(before, after))
+    refused(name, words)
+
+# Version 4: what is announced, and what is there; a node with two places.
+def binary4(name, n_nodes=5, n_elements=2, numbers=(1, 2, 3, 4, 5), order="<"):
+    data = b"$MeshFormat\n4.1 1 8\n" + struct.pack(order + "i", 1) + b"\n$EndMeshFormat\n$Entities\n" + struct.pack(order + "4Q", 0, 0, 0, 1)
+    data += struct.pack(order + "i6dQiQ", 1, 0, 0, 0, 1, 1, 1, 1, 1, 0) + b"\n$EndEntities\n$Nodes\n" + struct.pack(order + "4QiiiQ", 1, n_nodes, 1, 5, 3, 1, 0, len(numbers))
+    data += struct.pack(f"{order}{len(numbers)}Q", *numbers) + b"".join(struct.pack(order + "3d", *VERTICES[i]) for i in range(len(numbers)))
+    data += b"\n$EndNodes\n$Elements\n" + struct.pack(order + "4QiiiQ", 1, n_elements, 1, 2, 3, 1, 4, 2)
+    data += b"".join(struct.pack(order + "5Q", i, *cell) for i, (cell, _) in enumerate(CELLS, 1))
+    (folder / name).write_bytes(data + b"\n$EndElements\n")
+    return name
+
+
+four = (folder / msh4("four.msh", {1: [1]}, [(1, [1, 2], [cell for cell, _ in CELLS])])).read_text()
+accepted("four.msh", "materials   1 (2)")
+accepted(binary4("four-packed.msh"), "materials   1 (2)")
+refused(save("more.msh", four.replace("$Elements\n1 2 1 2\n3 1 4 2", "$Elements\n1 1 1 2\n3 1 4 1")), "announces 1 elements, but has more")
+refused(save("more.msh", four.replace("$Elements\n1 2 1 2", "$Elements\n1 1 1 2")), "announces 1 elements, but has 2")
+refused(save("fewer.msh", four.replace("$Elements\n1 2 1 2", "$Elements\n1 3 1 3")), "announces 3 elements, but has 2")
+refused(save("nodes.msh", four.replace("$Nodes\n1 5 1 5", "$Nodes\n1 6 1 6")), "announces 6 nodes, but has 5")
+refused(save("again.msh", four.replace("3\n4\n5\n", "3\n4\n4\n")), "node 4 is given twice, at two places")
+refused(binary4("again-packed.msh", numbers=(1, 2, 3, 4, 4)), "node 4 is given twice, at two places")
+refused(binary4("more-packed.msh", n_elements=1), "announces 1 elements, but has 2")
+refused(binary4("nodes-packed.msh", n_nodes=4), "announces 4 nodes, but has 5")
+old = "$MeshFormat\n4.0 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n1 0 0 0 1 1 1 1 1 0\n$EndEntities\n$Nodes\n1 5\n1 3 0 5\n"
+old += rows((i, *v) for i, v in enumerate(VERTICES, 1)) + "$EndNodes\n$Elements\n1 2\n1 3 4 2\n" + rows((i, *cell) for i, (cell, _) in enumerate(CELLS, 1)) + "$EndElements\n"
+accepted(save("old.msh", old), "materials   1 (2)")
+refused(save("again.msh", old.replace("\n5 1 1 1\n", "\n4 1 1 1\n")), "node 4 is given twice, at two places")
+
 # An element in two groups: the least id counts, and it is said.
-accepted(msh2("twice.msh", [*ONE_ENTITY, (4, 5, 2, CELLS[0][0])]), MATERIALS, "1 cell(s) belong to two physical volumes", warnings=1)
+accepted(msh2("twice.msh", [*ONE_ENTITY, (4, 5, 2, CELLS[0][0])]), MATERIALS, "1 cell(s) belong to several groups", warnings=1)
 refused(msh2("again.msh", [*ONE_ENTITY, (4, 2, 1, CELLS[1][0]), (4, 2, 1, CELLS[1][0])]), "given twice")
 accepted(msh4("overlap.msh", {1: [1], 2: [1, 2]}, [(1, [1], [CELLS[0][0]]), (2, [2], [CELLS[1][0]])]),
-         "materials   1 (2)", "1 cell(s) belong to two physical volumes", warnings=1)
+         "materials   1 (2)", "1 cell(s) belong to several groups", warnings=1)
 accepted(msh4("anew.msh", {1: [1], 2: [2]}, [(1, [1], [CELLS[0][0]]), (2, [1], [CELLS[1][0]])]), MATERIALS)
 overlap = [(2, 20, 1, FACES[0][0]), (2, 20, 1, FACES[1][0])]
-accepted(msh2("faces.msh", [*ONE_ENTITY, *overlap]), BOUNDARIES, "1 triangle(s) belong to two physical surfaces", warnings=1)
+accepted(msh2("faces.msh", [*ONE_ENTITY, *overlap]), BOUNDARIES, "1 triangle(s) belong to several groups; the least id counts", warnings=1)
 
 # Medit, Nastran, VTK.
 medit = "MeshVersionFormatted 2\nDimension 3\n# vertices\nVertices\n5\n" + rows((*v, 0) for v in VERTICES)
@@ -135,6 +171,15 @@ accepted(save("negative.mesh", medit.replace("1 2 3 4 1\n", "1 2 3 4 -1\n")), "m
 refused(save("short.mesh", medit[:medit.index("Triangles")].replace("Tetrahedra 2", "Tetrahedra 3")), "ends before all tetrahedra")
 refused(save("long.mesh", medit.replace("Tetrahedra 2", "Tetrahedra 1")), "more tetrahedra than the 1")
 refused(save("hexahedra.mesh", medit.replace("Corners 1\n1\n", "Hexahedra 1\n1 2 3 4 5 1 2 3 0\n")), "1 of the kind Hexahedron 8")
+
+refused(save("vertices.mesh", medit.replace("Tetrahedra 2", "0.3 0.3 0.3 0\nTetrahedra 2")), "more vertices than the 5")
+refused(save("again.mesh", medit.replace("Corners 1\n1\n", "Vertices 1\n2 2 2 0\n")), "two sections of vertices")
+refused(save("large.mesh", medit.replace("1 2 3 4 1\n", "1 2 3 4 3000000000\n")), "3000000000 can't be an id")
+refused(save("part.mesh", medit.replace("1 2 3 4 1\n", "1 2 3 4 1.5\n")), "1.5 can't be an id")
+accepted(save("two-billion.mesh", medit.replace("1 2 3 4 1\n", "1 2 3 4 2000000000\n")), "2 (1), 2000000000 (1)")
+for cells in ("TetrahedraP3", "PrismsQ2", "PyramidsP2", "HexahedraQ3", "Polyhedra"):
+    refused(save("kinds.mesh", medit.replace("Corners 1\n1\n", f"{cells} 1\n1 2 3 4 5 1 2 3 4 5 7\n")), f"1 of the kind {cells.lower()}")
+accepted(save("surface.mesh", medit.replace("Corners 1\n1\n", "QuadrilateralsQ3 1\n1 2 3 4 5 1 2 3 4 5 7\n")), "not read: 1 of the kind quadrilateralsq3", warnings=1)
 
 vtk = "# vtk DataFile Version {}\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n{}POINTS 5 double\n" + rows(VERTICES) + "{}"
 cells = "CELLS 4 18\n" + rows((len(nodes), *[v - 1 for v in nodes]) for nodes, _ in CELLS + FACES) + "CELL_TYPES 4\n10 10 5 5\n"
@@ -155,6 +200,20 @@ accepted(save("negative.vtk", vtk.format("3.0", "", "") + cells + ids.format("me
          "materials   0 (1), 2 (1)", "negative id", warnings=1)
 ghosts = "CELL_DATA 4\nFIELD FieldData 1\nvtkGhostType 1 4 unsigned_char\n0 1 0 0\n"
 accepted(save("ghosts.vtk", vtk.format("4.2", "", "") + cells + ghosts), "1 tetrahedra", "1 ghost cell(s)", warnings=2)
+refused(save("few.vtk", vtk.format("3.0", "", "") + cells + "CELL_DATA 2\nSCALARS medit int 1\nLOOKUP_TABLE default\n1 2\n"), "medit has 2 values for 4 cells")
+other = "SCALARS region int 1\nLOOKUP_TABLE default\n{}\n"
+zeros = ids.format("material").replace("1 2 10 20", "0 0 0 0")
+accepted(save("zeros.vtk", vtk.format("3.0", "", "") + cells + zeros + other.format("1 2 10 20")), MATERIALS, BOUNDARIES)
+accepted(save("fields.vtk", vtk.format("3.0", "", "") + cells + ids.format("material") + other.format("1 1 1 1")), MATERIALS, BOUNDARIES,
+         "material is taken, not region", warnings=1)
+names = "CELL_DATA 4\nFIELD FieldData 2\nname 1 4 string\na\nb\nc\nd\nMaterialIds 1 4 int\n1 2 10 20\n"
+accepted(save("words.vtk", vtk.format("3.0", "", "") + cells + names), MATERIALS, BOUNDARIES)
+for kind, letter, least in (("unsigned_char", "B", 200), ("unsigned_short", "H", 40000), ("unsigned_int", "I", 500000000), ("unsigned_long", "Q", 600000000)):
+    data = b"# vtk DataFile Version 3.0\nx\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n" + b"".join(struct.pack(">3d", *v) for v in VERTICES)
+    data += b"\nCELLS 4 18\n" + b"".join(struct.pack(f">{len(n) + 1}i", len(n), *[v - 1 for v in n]) for n, _ in CELLS + FACES)
+    data += b"\nCELL_TYPES 4\n" + struct.pack(">4i", 10, 10, 5, 5) + f"\nCELL_DATA 4\nSCALARS material {kind} 1\nLOOKUP_TABLE default\n".encode()
+    (folder / "unsigned.vtk").write_bytes(data + struct.pack(f">4{letter}", 1, least, 10, 20) + b"\n")
+    accepted("unsigned.vtk", f"materials   1 (1), {least} (1)", BOUNDARIES)
 refused(save("neither.vtk", "# vtk DataFile Version 3.0\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n"), "ASCII or BINARY")
 refused(save("surface.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\n"), "POLYDATA", "UNSTRUCTURED_GRID")
 
@@ -163,6 +222,24 @@ NAMES = [(3, 1, "soft"), (3, 2, "hard"), (2, 10, "clamp"), (2, 20, "pulled face"
 msh2("names.msh", ONE_ENTITY, NAMES)
 accepted("names.msh", "held; 1 process", "10 (1)", settings=["Constraints/Clamped boundaries=clamp"])
 accepted(msh2("signs.msh", ONE_ENTITY, [*NAMES[:2], (2, 10, "clamp#1")]), "The group clamp#1 has a #", warnings=1)
+# A number is an id, whatever name a group has; a group of several of one name is not taken alone.
+msh2("numbers.msh", ONE_ENTITY, [(2, 10, "20"), (2, 20, "10"), (3, 1, "2"), (3, 2, "1"), (2, 30, "30")])
+accepted("numbers.msh", "A group with the id 20 has the name 10", "A group with the id 1 has the name 2", warnings=4)
+fall = {"Mesh/File": "numbers.msh", "Loads/Gravity": "0, 0, -9.81", "Time/Steps": 2, "Probes/Points": "c: vertex 2; d: vertex 3",
+        "Material/By id": "1: 1e6, 0.3, 1000; 2: 1e7, 0.3, 1000"}
+held = {boundary: runner.simulate(scene, {**fall, "Constraints/Clamped boundaries": boundary}).probes()[-1] for boundary in (10, 20)}
+runner.check(held[10]["c.uz"] == 0. and held[10]["d.uz"] < 0. and held[20]["c.uz"] < 0. and held[20]["d.uz"] == 0., f"held are {held}")
+msh2("same.msh", ONE_ENTITY, [(2, 10, "wall"), (2, 20, "wall")])
+accepted("same.msh", "Several groups have the name wall", warnings=1)
+refused("same.msh", "'wall' is no boundary id, nor the name of exactly one group", settings=["Constraints/Clamped boundaries=wall"])
+msh2("hidden.msh", [*ONE_ENTITY, (2, 5, 2, FACES[0][0])], [(2, 10, "clamp"), (2, 5, "skin")])
+refused("hidden.msh", "no face of the surface has the id 10 of the group clamp", "another group of a lesser id", settings=["Constraints/Clamped boundaries=clamp"])
+msh2("digits.msh", ONE_ENTITY, [(2, 10, "2nd wall"), (2, 20, "-foot"), (3, 1, "3d")])
+accepted("digits.msh", settings=["Constraints/Clamped boundaries=2nd wall, -foot", "Material/By id=3d: 1e6, 0.3, 1000"])
+for setting in ("Motion/Of=boundary +", "Motion/Of=boundary 10, +", "Probes/Boundaries=a: +", "Constraints/Clamped boundaries=+"):
+    refused("two.msh", "'+' is no boundary id", settings=[setting, "Motion/Displacement=0; 0; t"])
+accepted(msh2("great.msh", [(4, 1234567, 1, CELLS[0][0])]), settings=["Material/By id=1234567: 1e6, 0.3, 1000"])
+
 unv = "    -1\n  2411\n" + "".join(f"{i:10d}         1         1        11\n{x:25.16E}{y:25.16E}{z:25.16E}\n" for i, (x, y, z) in enumerate(VERTICES, 1))
 unv += "    -1\n    -1\n  2412\n"
 for number, (nodes, _) in enumerate(FACES + CELLS, 1):
@@ -172,8 +249,41 @@ for number, (name, member) in enumerate([("clamp", 1), ("pulled face", 2), ("sof
     unv += f"{number:10d}" + "         0" * 6 + f"         1\n{name}\n         8{member:10d}         0         0\n"
 save("salome.unv", unv + "    -1\n")
 accepted(save("zero.unv", unv.replace("         1         0         0         0         0         0         0         1\nclamp",
-                                       "         0" * 7 + "         1\nclamp") + "    -1\n"), "clamp (boundary ")
+                                       "         0" * 7 + "         1\nclamp") + "    -1\n"), "clamp (boundary 3)", "The group clamp has the number 0", warnings=1)
 accepted("salome.unv", "materials   3 (1), 4 (1)", "boundaries  0 (4), 1 (1), 2 (1)", "clamp", "hard")
+
+
+def grouped(*groups):
+    """The same with groups of these numbers, names and members."""
+    text = unv[:unv.index("  2467\n")] + "  2467\n"
+    for number, name, members in groups:
+        text += f"{number:10d}" + "         0" * 6 + f"{len(members):10d}\n{name}\n" + "".join(f"         8{m:10d}         0         0\n" for m in members)
+    return text + "    -1\n"
+
+
+# Numbers of groups are those of faces, or of cells; two groups of one number are told, and members that are nothing.
+accepted(save("spaces.unv", grouped((1, "clamp", [1]), (1, "soft", [3]), (2, "load", [2]), (2, "hard", [4]))), MATERIALS, "boundaries  0 (4), 1 (1), 2 (1)")
+accepted(save("clash.unv", grouped((1, "clamp", [1]), (1, "load", [2]), (4, "soft", [3]))), "1 (1), 2 (1)",
+         "The groups clamp and load have the same number 1; load gets the id 2", warnings=1)
+accepted(save("lists.unv", grouped((1, "clamp", [1]), (1, "clamp", [2]), (4, "soft", [3]))), "boundaries  0 (4), 1 (2)")
+accepted(save("nothing.unv", grouped((1, "clamp", [1, 99]), (4, "soft", [3]))), "The group clamp names 1 element(s) that are not in the file", warnings=1)
+refused(save("large.unv", grouped((3000000000, "clamp", [1]))), "3000000000 can't be an id")
+
+# Without groups, the material or else the property, whichever differs, of faces and of cells by themselves.
+def unv_ids(name, *pairs):
+    """Property and material of each element."""
+    lines = unv[:unv.index("    -1\n    -1\n  2467\n")].split("\n")
+    heads = [i for i, line in enumerate(lines) if line.endswith(("         7         3", "         7         4"))]
+    for i, (prop, material) in zip(heads, pairs):
+        lines[i] = lines[i][:20] + f"{prop:10d}{material:10d}" + lines[i][40:]
+    return save(name, "\n".join(lines) + "    -1\n")
+
+
+accepted(unv_ids("property.unv", (5, 0), (6, 0), (1, 3), (2, 3)), MATERIALS, "5 (1), 6 (1)")
+accepted(unv_ids("material.unv", (5, 0), (5, 0), (7, 1), (8, 2)), MATERIALS, "boundaries  0 (4), 5 (2)")
+system = "    -1\n  2420\n         1\nPart\n         1         1         8\nCS1\n    1.0 0.0 0.0\n 0.0 1.0 0.0\n 0.0 0.0 1.0\n 0.0 0.0 0.0\n    -1\n"
+for text in (system + unv + "    -1\n", unv + "    -1\n" + system):
+    refused(save("system.unv", text), "line ", "coordinate system 1")
 refused(save("cut.unv", unv[:-41]), "ends within")
 refused(save("cut.unv", unv[:-30]), "4 whole numbers")
 for name in ("names.msh", "salome.unv"):

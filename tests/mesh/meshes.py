@@ -61,9 +61,9 @@ accepted("good.msh", "[0, 0.001] x [0, 0.001]", settings=["Mesh/Scale=1e-3"])
 accepted(write("inverted.msh", cells=[(0, 2, 1, 3), CELLS[1]]), "1 inverted cell(s) were reoriented")
 accepted(write("sliver.msh", vertices=VERTICES[:4] + [(0.34, 0.34, 0.34)]), "1 cell(s) are slivers",
          "the worst is cell 1 at (")
-accepted(write("unused.msh", vertices=[*VERTICES, (5, 5, 5)]), "5 vertices")
+accepted(write("unused.msh", vertices=[*VERTICES, (5, 5, 5)]), "5 vertices", "1 vertex is in no cell")
 accepted(write("double.msh", vertices=[*VERTICES, (1, 0, 0)], cells=[CELLS[0], (5, 2, 3, 4)]),
-         "1 vertices lie at the place of another one")
+         "1 vertex lies at the place of another one")
 apart = [(x + 3, y, z) for x, y, z in VERTICES[:4]]
 accepted(write("pieces.msh", vertices=[*VERTICES, *apart], cells=[*CELLS, (5, 6, 7, 8)]),
          "in 2 pieces that do not hang together")
@@ -76,8 +76,8 @@ far = [(500000 + 10 * x, 5400000 + 4 * y, 300 + 4 * z) for x, y, z in VERTICES]
 accepted(write("far.msh", vertices=far), "[500000, 500010] x [5400000, 5400004] x [300, 304] m", "from the origin", settings=["Constraints/Clamped region="])
 
 outer, inner = (0, 1, 2), (1, 2, 3)
-accepted(write("surface.msh", surface=[(3, outer), (4, inner)]), "3 (1)", "1 triangle(s) of physical surfaces lie inside")
-accepted(write("twice.msh", surface=[(3, outer), (4, outer)]), "3 (1)", "belong to two physical surfaces")
+accepted(write("surface.msh", surface=[(3, outer), (4, inner)]), "3 (1)", "1 triangle(s) of groups lie inside")
+accepted(write("twice.msh", surface=[(3, outer), (4, outer)]), "3 (1)", "1 triangle(s) belong to several groups")
 accepted("good.msh", "8 (1)", "9 (3)", settings=["Mesh/Boundary regions=8: z == 0; 9: x + y + z >= 1"])
 refused("good.msh", "no face of the surface", "z > 5", settings=["Mesh/Boundary regions=8: z > 5"])
 refused("good.msh", "id: expression", settings=["Mesh/Boundary regions=top: z > 0"])
@@ -116,7 +116,7 @@ runner.check(not (folder / "was-run").exists(), "the mesh file was run")
 (folder / "cut.msh").write_text((folder / "good.msh").read_text()[:120])
 refused("cut.msh", "cut.msh")
 refused("missing.msh", "no such file")
-for name, words in [("body.stl", ["surface", "no volume"]), ("body.e", ["meshio convert", "--output-format gmsh22"]),
+for name, words in [("body.stl", ["surface", "no volume"]), ("body.e", ["scripts/convert-mesh.py", "meshio convert", "--output-format gmsh22"]),
                     ("body.inp", ["meshio convert"]), ("body.geo", [".geo is not known", ".msh"]), ("body.meshb", ["meshio convert"]),
                     ("body.vtu", ["none of VTK's XML files", "<VTKFile"]), ("body.pvtu", ["files of its parts"]),
                     ("body.dat", ["Nastran's bulk data", ".bdf"])]:

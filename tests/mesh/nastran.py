@@ -63,8 +63,12 @@ for first, second in [("6", "               7       8       9      10"), ("6+", 
     refused(nodes + "CTETRA,1,1,1,2,3,4,5,6,\n,7,8,9,10\n", "1 of the kind Tetrahedron 10")
     refused(nodes + "CTETRA,1,1,1,2,3,4,5,6,+\n+,7,8,9,10\n", "1 of the kind Tetrahedron 10")
 refused(GRIDS + CELLS + "CHEXA,9,1,1,2,3,4,5,6,+\n+,7,8\n", "1 of the kind CHEXA")
-accepted(GRIDS + CELLS + FACES + "CQUAD4,9,7,1,2,3,4\n", ["1 of the kind CQUAD4"], warnings=1)
+accepted(GRIDS + CELLS + FACES + "CQUAD4,9,7,1,2,3,4\n", ["Elements of the surface that are not read: 1 of the kind CQUAD4."], warnings=1)
 accepted(GRIDS + CELLS + FACES + "RBE2,9,1,123,2,3\n", ["RBE2 (1)"], warnings=1)
+
+# Between commas the mark may come early. A vertex with a sign is none.
+accepted(GRIDS + "CTETRA,1,1,1,2,3,4,+\n+,\n" + "CTETRA,2,2,2,3,4,5,+A\n+A,,\n" + FACES, BODY)
+accepted(GRIDS.replace("GRID,5,,1.,1.,1.", "GRID,5,,1.,1.,+1.") + CELLS + FACES, BODY)
 
 # A mark may begin with any character; CBARAO and the like are no lines of the body; numbers may be large.
 accepted(GRIDS + "CTETRA  1       1       1       2       3       4                       K1\n+1\n" + "CTETRA,2,2,2,3,4,5\n" + FACES, BODY)
@@ -79,6 +83,12 @@ accepted("BEGIN BULK\n" + whole + "INCLUDE 'half.bdf'\nENDDATA\n", BODY)
 accepted("BEGIN BULK\ninclude half.bdf\n" + whole + "ENDDATA\n", BODY)
 (folder / "all.bdf").write_text(GRIDS + CELLS + FACES)
 accepted("CEND\nBEGIN BULK\nINCLUDE \"all.bdf\"\nENDDATA\n", BODY)
+(folder / "case.inc").write_text("CTETRA,9\nSUBCASE 1\n  LOAD = 2\n")
+accepted("SOL 101\nCEND\nINCLUDE 'case.inc'\nBEGIN BULK\n" + GRIDS + CELLS + FACES + "ENDDATA\n", BODY)
+(folder / "head.inc").write_text("CTETRA,9\nBEGIN BULK\n" + GRIDS)
+accepted("SOL 101\nCEND\nINCLUDE 'head.inc'\n" + CELLS + FACES + "ENDDATA\n", BODY)
+(folder / "mark.bdf").write_text("\ufeff" + GRIDS)
+refused("BEGIN BULK\nINCLUDE 'mark.bdf'\n" + CELLS, "mark.bdf begins with a byte order mark")
 refused("INCLUDE 'nowhere.bdf'\n" + whole, "line 1", "'nowhere.bdf' is not there")
 refused("INCLUDE 'body.bdf'\n" + whole, "include each other")
 
@@ -87,8 +97,8 @@ refused(GRIDS.replace("GRID,5,,", "GRID,5,3,") + CELLS, "line 5", "coordinate sy
 refused("GRDSET,,7\n" + GRIDS + CELLS, "coordinate system 7")
 refused(GRIDS + "GRID,1,,5.,5.,5.\n" + CELLS, "vertex 1 is given twice")
 refused(GRIDS + CELLS.replace("CTETRA,2", "CTETRA,1"), "element 1 is given twice")
-refused(GRIDS + CELLS.replace("4,5", "4,x"), "'X' in field 7", "no whole number")
-refused(GRIDS.replace("GRID,5,,1.", "GRID,5,,1.x") + CELLS, "is no number")
+refused(GRIDS + CELLS.replace("4,5", "4,x"), "'X' in field 7", "is not a whole number")
+refused(GRIDS.replace("GRID,5,,1.", "GRID,5,,1.x") + CELLS, "is not a number")
 refused(GRIDS + CELLS + "=,*(1),=\n", "repeat others")
 refused(GRIDS + "CTETRA,1,1,1,2,3,4,5,6,+A\n+B,7,8,9,10\n", "not that of the line before it")
-refused("GRID,1,,0.,0.,0.\n", "1 vertices but no tetrahedra")
+refused("GRID,1,,0.,0.,0.\n", "it has 1 vertex but no tetrahedra")

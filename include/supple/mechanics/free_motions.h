@@ -33,7 +33,7 @@ namespace Supple
    * of their joints; where there are more than a hundred of them, they count as one.
    * @param products 6x6 matrix of each part, the sum of b b^T over its held degrees of freedom,
    * where b (a, w) is the displacement of one by RigidMotions of the part's box
-   * @return "3 of its six rigid motions are free (it can slide along x and y and turn about z)";
+   * @return "3 of its 6 rigid motions are free (it can slide along x and y and turn about z)";
    * empty if there are none
    */
   std::string

@@ -34,6 +34,12 @@ namespace Supple
   };
 
 
+  /** @throws InputError if the number of a group, a reference or the like is no id: a whole number,
+   * 2147483647 at most, as in parameter files */
+  unsigned int
+  id_of(double number);
+
+
   /**
    * The body that a file holds: its tetrahedra, or the triangles of one in the plane z = 0.
    * Vertices and cells have the order of their numbers. Materials are ids of cells, boundaries

@@ -17,6 +17,11 @@ namespace Supple
   msh_format_of(const std::string &file);
 
 
+  /** How many nodes an element has, by Gmsh's number of its kind; 0 if the kind is not known. */
+  unsigned int
+  n_nodes_of_kind(long kind);
+
+
   /**
    * Reads a .msh file of version 1 or 2, ASCII or binary, where each element has a group of its
    * own: Gmsh's library keeps groups by elementary number alone, and takes all elements of one

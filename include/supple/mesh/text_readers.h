@@ -22,7 +22,8 @@ namespace Supple
 
   /**
    * I-DEAS universal files (.unv): datasets 2411 or 781, 2412, and groups of elements, whose
-   * numbers are the ids. Without groups the material, or else the physical property is the id.
+   * numbers are the ids. Elements of a dimension without groups have the material as the id, or the
+   * physical property if that alone differs.
    * @throws InputError for what is not whole or not understood
    */
   FileMesh
