@@ -173,7 +173,7 @@ namespace Supple
             ": its faces lie inside the body, are in another group of a lesser id too, or have "
             "another id by Mesh/Boundary regions"
         : "'" + boundary +
-            "' is no boundary id, nor the name of exactly one group of the mesh file";
+            "' is no boundary id, and no single group of the mesh file has this name";
     throw InputError(origin + ": " + problem + ". The body has: " + known + ".");
   }
 

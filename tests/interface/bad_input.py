@@ -84,7 +84,7 @@ for entry, values, words in [
         ("Loads/Body force", ["w; 0; 0"], ["w", "x, y, z, t"]),
         ("Start/Velocity", ["1/0; 0; 0", "sqrt(-1); 0; 0"], ["finite"]),
         ("Constraints/Clamped boundaries", ["7"], ["no boundary 7", "3 (8 faces)"]),
-        ("Constraints/Clamped boundaries", ["top"], ["no boundary id", "name of a group"]),
+        ("Constraints/Clamped boundaries", ["top"], ["no boundary id", "no single group"]),
         ("Constraints/Clamped region", ["x > 100"], ["no vertex", "[0, 4] x [0, 12] x [0, 4]", "0, 1, 2, 3, 4, 5"]),
         ("Constraints/Clamped region", ["x >"], ["Unexpected end"]),
         ("Constraints/Clamped region", ["sqrt(x - 50)"], ["finite"]),

@@ -136,8 +136,8 @@ accepted(square, "2 triangles, 4 vertices in [0, 1] x [0, 1] m, 1 m^3", "0 (2), 
 accepted({**square, "Mesh/Scale": 1e-3, "Plane/Model": "axisymmetric"}, "[0, 0.001] x [0, 0.001] m, 3.14159e-09 m^3")
 accepted({**square, "Mesh/Boundary regions": "8: x == 1"}, "0 (1), 5 (1), 6 (1), 8 (1)")
 accepted({**square, "Material/By id": "4: 1e6, 0.3, 900"})
-accepted(write("inside.msh", SQUARE, HALVES, [(5, (0, 2))]), "1 edge(s) of physical curves lie inside")
-accepted(write("twice.msh", SQUARE, HALVES, [(5, (0, 1)), (6, (0, 1))]), "1 edge(s) belong to two physical curves")
+accepted(write("inside.msh", SQUARE, HALVES, [(5, (0, 2))]), "1 edge(s) of groups lie inside")
+accepted(write("twice.msh", SQUARE, HALVES, [(5, (0, 1)), (6, (0, 1))]), "1 edge(s) belong to several groups")
 apart = [(x + 3, y, z) for x, y, z in SQUARE[:3]]
 accepted(write("pieces.msh", [*SQUARE, *apart], [*HALVES, (3, (4, 5, 6))]), "in 2 pieces that do not hang together")
 accepted(write("sliver.msh", [*SQUARE, (0.5, 1.01, 0)], [*HALVES, (3, (3, 2, 4))]), "1 cell(s) are slivers")
