@@ -206,7 +206,7 @@ zeros = ids.format("material").replace("1 2 10 20", "0 0 0 0")
 accepted(save("zeros.vtk", vtk.format("3.0", "", "") + cells + zeros + other.format("1 2 10 20")), MATERIALS, BOUNDARIES)
 accepted(save("fields.vtk", vtk.format("3.0", "", "") + cells + ids.format("material") + other.format("1 1 1 1")), MATERIALS, BOUNDARIES,
          "material is taken, not region", warnings=1)
-names = "CELL_DATA 4\nFIELD FieldData 2\nname 1 4 string\na\nb\nc\nd\nMaterialIds 1 4 int\n1 2 10 20\n"
+names = "CELL_DATA 4\nFIELD FieldData 2\nname 1 4 string\nu\nv\nw\nx\nMaterialIds 1 4 int\n1 2 10 20\n"
 accepted(save("words.vtk", vtk.format("3.0", "", "") + cells + names), MATERIALS, BOUNDARIES)
 for kind, letter, least in (("unsigned_char", "B", 200), ("unsigned_short", "H", 40000), ("unsigned_int", "I", 500000000), ("unsigned_long", "Q", 600000000)):
     data = b"# vtk DataFile Version 3.0\nx\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n" + b"".join(struct.pack(">3d", *v) for v in VERTICES)
@@ -231,7 +231,7 @@ held = {boundary: runner.simulate(scene, {**fall, "Constraints/Clamped boundarie
 runner.check(held[10]["c.uz"] == 0. and held[10]["d.uz"] < 0. and held[20]["c.uz"] < 0. and held[20]["d.uz"] == 0., f"held are {held}")
 msh2("same.msh", ONE_ENTITY, [(2, 10, "wall"), (2, 20, "wall")])
 accepted("same.msh", "Several groups have the name wall", warnings=1)
-refused("same.msh", "'wall' is no boundary id, nor the name of exactly one group", settings=["Constraints/Clamped boundaries=wall"])
+refused("same.msh", "'wall' is no boundary id, and no single group", settings=["Constraints/Clamped boundaries=wall"])
 msh2("hidden.msh", [*ONE_ENTITY, (2, 5, 2, FACES[0][0])], [(2, 10, "clamp"), (2, 5, "skin")])
 refused("hidden.msh", "no face of the surface has the id 10 of the group clamp", "another group of a lesser id", settings=["Constraints/Clamped boundaries=clamp"])
 msh2("digits.msh", ONE_ENTITY, [(2, 10, "2nd wall"), (2, 20, "-foot"), (3, 1, "3d")])
