@@ -166,6 +166,12 @@ namespace Supple
       {
         using Frames                   = OutputParameters::Frames;
         const OutputParameters &output = scene.output, &preset = defaults.output;
+        note(output.frames == Frames::none &&
+               scene.space.estimate == SpaceParameters::Estimate::frames,
+             "Space/Estimate error",
+             scene.space.estimate,
+             defaults.space.estimate,
+             "Output/Frames is none; the error in space is told at the end alone");
         if (output.frames == Frames::none)
           return; // all of them are silent on purpose
         note(output.frames != Frames::every,
