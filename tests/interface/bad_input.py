@@ -222,6 +222,6 @@ refused([runner.BAR, "--set", "Constraints/Clamped boundaries=", "--set", "Motio
 for entry, value in [("Constraints/Clamped region", "(0.05 < x) && x <= 0.15 || !(y >= 1) == 1"),
                      ("Loads/Body force", "if(t >= 1, max(1, 2, x), 0); atan2 (x, y); t != 1 ? 1 : 2 < 3"),
                      ("Constraints/Clamped region", "if(x < 1, y < 1, z > 1 && x <= 2)"),
-                     ("Loads/Pressure", "log(exp(1)) + int(2.6) - 3*if(1 & 0 | 1, 1, 2)"), ("Mesh/Map", "x*sqrt (1); y; z + sec(0) - 1")]:
+                     ("Loads/Body force", "log(exp(1)) + int(2.6) - 3*if(1 & 0 | 1, 1, 2); 0; 0"), ("Mesh/Map", "x*sqrt (1); y; z + sec(0) - 1")]:
     status, _, error = runner.run("--check", runner.BAR, "--set", f"{entry}={value}")
     runner.check(status == 0, f"{value}: {error}")
