@@ -197,7 +197,7 @@ namespace Supple
       for (unsigned int i = 0; i < 4; ++i)
         parser.DefineVar(std::string(1, "xyzt"[i]), &place_and_time[i]);
       define_functions(parser);
-      parser.SetExpr(std::regex_replace(text, std::regex("(\\w)\\s+\\("), "$1("));
+      parser.SetExpr(std::regex_replace(text, std::regex("(\\w+)(\\s+)\\("), "$2$1("));
       parser.Eval(); // muParser reads the text at the first evaluation
     }
   };
@@ -211,6 +211,8 @@ namespace Supple
     , zero(true)
     , time_dependent(std::regex_search(text, std::regex("\\bt\\b")))
   {
+    if (dealii::Utilities::trim(text).empty())
+      throw InputError(origin + ": the expression is empty; for nothing write 0.");
     const auto components = dealii::Utilities::split_string_list(text, ';');
     if (components.size() != n_components)
       throw InputError(origin + ": found " + std::to_string(components.size()) +

@@ -31,14 +31,19 @@ namespace Supple
     // Isolated processes would all share one folder, and MPI_Init fails where two of them make it
     // at once.
     std::error_code problem;
-    folder = (std::filesystem::temp_directory_path(problem) / "supple-mpi-XXXXXX").string();
-    if (problem || !mkdtemp(&folder[0]))
+    for (const auto &base : {std::filesystem::temp_directory_path(problem),
+                             std::filesystem::path("/tmp"),
+                             std::filesystem::path("/dev/shm")})
       {
-        folder.clear();
-        return;
+        folder = (base / "supple-mpi-XXXXXX").string();
+        if (mkdtemp(&folder[0]))
+          {
+            set("OMPI_MCA_orte_tmpdir_base", folder);
+            set("OMPI_MCA_ess_singleton_isolated", "1");
+            return;
+          }
       }
-    set("OMPI_MCA_orte_tmpdir_base", folder);
-    set("OMPI_MCA_ess_singleton_isolated", "1");
+    folder.clear();
   }
 
 

@@ -209,6 +209,7 @@ for entry, value, words in [
         ("Mesh/Boundary regions", "7: 0 <= y <= 1", "a < x && x < b"),
         ("Probes/Regions", "end: y = 1", "Equal is =="),
         ("Loads/Body force", ";0;0", "is empty"),
+        ("Loads/Body force", "sin    (x) + q; 0; 0", "at character 14: Unexpected token"),
         ("Loads/Body force", "-;0;0", "at character 2: something is missing"),
         ("Loads/Body force", "x y;0;0", 'at character 3: Unexpected variable "y".'),
         ("Loads/Gravity", "0; 0; 2*(x + 3", "at character 9: Missing parenthesis"),
