@@ -375,9 +375,6 @@ namespace Supple
   EquationOfMotion::full_mass_product(Vector &y, const Vector &x) const
   {
     const GhostValues values(x);
-    if (model.implicit_operator.has_mass())
-      model.implicit_operator.mass_matrix().vmult(y.begin(), values.data());
-    else
-      sum_into(y, [&](double *sum) { model.body.cells->add_mass_product(values.data(), sum); });
+    sum_into(y, [&](double *sum) { model.body.cells->add_mass_product(values.data(), sum); });
   }
 } // namespace Supple
