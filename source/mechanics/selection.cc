@@ -78,8 +78,7 @@ namespace Supple
       }
     if (Utilities::MPI::max(n_found, body.mesh.communicator) == 0)
       throw InputError(origin + ": the body has no such vertex; the indices go from 0 to " +
-                       std::to_string(body.mesh.n_vertices + body.mesh.report.unused_vertices - 1) +
-                       ".");
+                       std::to_string(body.mesh.n_serial_vertices() - 1) + ".");
     return nodes;
   }
 

@@ -18,15 +18,17 @@ folder = pathlib.Path(tempfile.mkdtemp(prefix="supple-"))
 ALWAYS = {"Solver/Tolerance": 1e-12, "Output/Motion": 0.05, "Checkpoint/Every": 7, "Checkpoint/Resume": "auto"}
 
 
-def mesh_scene(where, materials, inner=0.25, boundary=7):
-    """A scene with a mesh file: a tetrahedron about a vertex inside, cut into four, two of each material."""
+def mesh_scene(where, materials, inner=0.25, boundary=7, unused=0):
+    """A scene with a mesh file: a tetrahedron about a vertex inside, cut into four, two of each material, after some vertices
+    that no cell has."""
     where.mkdir(exist_ok=True)
-    vertices = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (inner, 0.25, 0.25)]
+    vertices = [(9, 9, i) for i in range(unused)] + [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (inner, 0.25, 0.25)]
     cells = [(5, 2, 3, 4), (1, 5, 3, 4), (1, 2, 5, 4), (1, 2, 3, 5)]
     elements = [(4, materials[i // 2], *cell) for i, cell in enumerate(cells)] + [(2, boundary, 2, 3, 4)]
-    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", 5, *[f"{i} {x} {y} {z}" for i, (x, y, z) in enumerate(vertices, 1)]]
-    lines += ["$EndNodes", "$Elements", 5, *[f"{i} {kind} 2 {tag} {tag} {' '.join(map(str, vertices))}"
-                                             for i, (kind, tag, *vertices) in enumerate(elements, 1)], "$EndElements"]
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", len(vertices),
+             *[f"{i} {x} {y} {z}" for i, (x, y, z) in enumerate(vertices, 1)]]
+    lines += ["$EndNodes", "$Elements", 5, *[f"{i} {kind} 2 {tag} {tag} {' '.join(str(unused + v) for v in nodes)}"
+                                             for i, (kind, tag, *nodes) in enumerate(elements, 1)], "$EndElements"]
     (where / "body.msh").write_text("\n".join(map(str, lines)) + "\n")
     scene = where / "scene.prm"
     scene.write_text("# a mesh file\nsubsection Mesh\n  set Shape = file\n  set File = body.msh\nend\n"
@@ -182,6 +184,17 @@ mesh_scene(folder / "mesh", materials=(1, 2))
 for ranks in (1, 2):
     status, _, error = runner.run(swapped, *runs, *runner.overrides({**settings, "Time/Steps": 8 * ranks}), ranks=ranks)
     runner.check(status == 0, error)
+
+# Vertices that no cell has count in the indices by which a checkpoint knows the others.
+lone = mesh_scene(folder / "lone", materials=(1, 2), unused=30000)
+status, _, error = runner.run(lone, "--quiet", "--output", folder / "lone" / "whole", *runner.overrides({"Time/Steps": 8}))
+runner.check(status == 0, error)
+for steps in (4, 8):
+    status, _, error = runner.run(lone, "--quiet", "--output", folder / "lone" / "parts",
+                                  *runner.overrides({**settings, "Time/Steps": steps}))
+    runner.check(status == 0, error)
+difference = largest_difference(*[runner.Results(folder / "lone" / name).history() for name in ("whole", "parts")])
+runner.check(difference <= 1e-12, f"after lone vertices: {difference}")
 
 file.write_bytes(good[:1000] + b"x" + good[1001:])
 status, error = run("polar", {**ALWAYS, "Time/Steps": 60})

@@ -38,7 +38,7 @@ namespace Supple
     std::unique_ptr<DistributedMesh> parts;
 
     unsigned int n_cells    = 0;                        ///< on all processes
-    unsigned int n_vertices = 0;                        ///< on all processes
+    unsigned int n_vertices = 0;                        ///< of cells, on all processes
     double volume           = 0.;                       ///< [m^3]
     dealii::BoundingBox<3> bounding_box;                ///< [m]
     std::map<unsigned int, unsigned int> boundaries;    ///< boundary id -> number of its faces
@@ -47,6 +47,14 @@ namespace Supple
     std::map<std::string, unsigned int> material_names; ///< of groups of the file -> material id
     MeshReport report;
     unsigned int checksum = 0; ///< of vertices, cells and ids
+
+    /** Of the file or the generator, those that no cell has included: a vertex's index in the mesh
+     * is less. */
+    unsigned int
+    n_serial_vertices() const
+    {
+      return n_vertices + report.unused_vertices;
+    }
 
     /** Length of the bounding box's diagonal [m]. */
     double
