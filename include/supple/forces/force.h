@@ -119,9 +119,9 @@ namespace Supple
     {
     }
 
-    /** Takes the derivatives at a configuration; kept until called again. Those of a force without
-     * has_tangent() are part of the consistent operator alone.
-     * @param part of the force that acts: in static scenes loads grow */
+    /** Takes the derivatives at a configuration, with the part of the force that acts (in static
+     * scenes loads grow); kept until called again. Those of a force without has_tangent() are part
+     * of the consistent operator alone. */
     virtual void
     update_tangent(Tangent, const Configuration &, double /*time*/, double /*part*/)
     {

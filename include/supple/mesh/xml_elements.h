@@ -7,7 +7,7 @@
 
 namespace Supple
 {
-  /** An element of an XML text, such as <DataArray type="Float64">1 2</DataArray>. */
+  /** An element of an XML text: its tag's name and attributes, and what stands in it. */
   struct XmlElement
   {
     std::string name;
