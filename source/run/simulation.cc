@@ -60,8 +60,7 @@ namespace Supple
   void
   Simulation::check()
   {
-    observed = true;
-    measure(0, StepReport());
+    observe(0, StepReport());
     if (talks)
       description().print(true);
   }
@@ -185,19 +184,24 @@ namespace Supple
   Simulation::measure(const unsigned int after_step, const StepReport &report)
   {
     if (observed)
-      {
-        const PhaseTimer timer(problem.effort, Phase::diagnostics);
-        const double seconds    = course.seconds() - (second_run ? second_run->seconds : 0.);
-        const Measurement next  = diagnostics.measure(after_step, report.time, seconds, report);
-        probes_now              = probe_values(next);
-        const std::string wrong = objection(next);
-        if (!wrong.empty())
-          refuse(wrong, next);
-        course.now = next;
-      }
+      observe(after_step, report);
     problem.configuration.accept();
     course.now.step = after_step;
     course.now.time = report.time;
+  }
+
+
+  void
+  Simulation::observe(const unsigned int after_step, const StepReport &report)
+  {
+    const PhaseTimer timer(problem.effort, Phase::diagnostics);
+    const double seconds    = course.seconds() - (second_run ? second_run->seconds : 0.);
+    const Measurement next  = diagnostics.measure(after_step, report.time, seconds, report);
+    probes_now              = probe_values(next);
+    const std::string wrong = objection(next);
+    if (!wrong.empty())
+      refuse(wrong, next);
+    course.now = next;
   }
 
 

@@ -84,6 +84,14 @@ namespace Supple
 
 
   void
+  DynamicIntegrator::keep_past()
+  {
+    keeps_past = true;
+    equation.keep_origin();
+  }
+
+
+  void
   DynamicIntegrator::begin_past(const double start, const double first_size)
   {
     past = {start, first_size, end, 0};

@@ -269,7 +269,8 @@ namespace Supple
                                 model.effort);
     if (model.implicit_operator.assemble(gamma))
       model.solver.prepare(model.configuration.displacement());
-    origin = {model.configuration.displacement(), configuration_time, gamma, replaced};
+    if (keeps_origin)
+      origin = {model.configuration.displacement(), configuration_time, gamma, replaced};
   }
 
 

@@ -109,13 +109,18 @@ namespace Supple
     Description
     description() const;
 
+    /** Accepts the state after a step, which then is the present one, and looks at it if somebody
+     * asks. @throws InputError and ComputationError as observe() */
+    void
+    measure(unsigned int after_step, const StepReport &report);
+
     /**
-     * Measures the state after a step, which then is the present one.
+     * Measures energies and probes of the state after a step.
      * @throws InputError at the start, ComputationError later, if something is no finite number or
      * a listener objects; the state then is the one before
      */
     void
-    measure(unsigned int after_step, const StepReport &report);
+    observe(unsigned int after_step, const StepReport &report);
 
     /** A row of probes.csv. */
     std::vector<double>

@@ -15,6 +15,9 @@ namespace Supple
     StepReport
     advance(bool observed) final;
 
+    void
+    keep_past() final;
+
   protected:
     DynamicIntegrator(const Model &model,
                       EquationOfMotion::Rotations rotations,
@@ -129,7 +132,8 @@ namespace Supple
 
     EnergyGuard guard;
     const bool guarded;
-    bool started = false;
+    bool started    = false;
+    bool keeps_past = false;
     Vector imbalance; ///< f_int + D v - f, at the end of the last observed step [N]
     Vector applied;   ///< of f, what is counted as work [N]
   };

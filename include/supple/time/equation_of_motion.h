@@ -116,6 +116,13 @@ namespace Supple
       return model.configuration.rotations_are == Rotations::frozen;
     }
 
+    /** To be called before the first step if save() will be. */
+    void
+    keep_origin()
+    {
+      keeps_origin = true;
+    }
+
     /** What a run that goes on needs of the past; collective, counts on the first process.
      * @param with_operator whether the operator may serve further steps */
     nlohmann::json
@@ -178,6 +185,7 @@ namespace Supple
       bool replaced = false;
     };
     Origin origin;
+    bool keeps_origin = false;
   };
 } // namespace Supple
 

@@ -27,10 +27,9 @@ namespace Supple
     advance(bool observed) = 0;
 
     /** To be called before the first step, or load(), if save() will be. */
-    void
+    virtual void
     keep_past()
     {
-      keeps_past = true;
     }
 
     /** What a run that goes on needs beyond the configuration: it changes nothing here. Collective,
@@ -77,8 +76,7 @@ namespace Supple
     set_reactions(const Vector &force);
 
     const Model model;
-    double time     = 0.; ///< [s]; the load factor of a static problem
-    bool keeps_past = false;
+    double time = 0.; ///< [s]; the load factor of a static problem
 
   private:
     Vector reaction;
