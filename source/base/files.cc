@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 namespace Supple
 {
@@ -92,6 +93,16 @@ namespace Supple
       sync(folder);
     }
   } // namespace
+
+
+  std::string
+  content_of(const std::string &file)
+  {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream content;
+    content << stream.rdbuf();
+    return content.str();
+  }
 
 
   void

@@ -1,6 +1,7 @@
 #include <supple/input/parameter_file.h>
 
 #include <supple/base/error.h>
+#include <supple/base/files.h>
 #include <supple/base/text.h>
 
 #include <deal.II/base/utilities.h>
@@ -232,18 +233,16 @@ namespace Supple
 
 
     std::string
-    content_of(const std::string &file, const std::string &message)
+    plain_text(const std::string &file, const std::string &message)
     {
-      std::ifstream stream(file);
-      if (!stream || !std::filesystem::is_regular_file(file))
+      if (!std::ifstream(file) || !std::filesystem::is_regular_file(file))
         throw InputError(message);
-      std::stringstream content;
-      content << stream.rdbuf();
-      if (content.str().rfind("\xef\xbb\xbf", 0) == 0)
+      std::string content = content_of(file);
+      if (content.rfind("\xef\xbb\xbf", 0) == 0)
         throw InputError(file +
                          ":1: the file begins with a byte order mark, three bytes that editors do "
                          "not show. Save it as UTF-8 without one.");
-      return content.str();
+      return content;
     }
 
 
@@ -277,7 +276,7 @@ namespace Supple
             continue;
           const std::string next = dealii::Utilities::trim(whole.substr(8, whole.find('#') - 8));
           const std::string included =
-            content_of(next, place + ": there is no file " + next + ", or it can't be read.");
+            plain_text(next, place + ": there is no file " + next + ", or it can't be read.");
           auto chain = including;
           if (!chain.insert(std::filesystem::canonical(next)).second)
             throw InputError(place + ": " + next + " includes itself.");
@@ -312,7 +311,7 @@ namespace Supple
     : file(file)
   {
     // parse_input() makes the file if it is not there
-    text = content_of(file, file + ": there is no such parameter file, or it can't be read.");
+    text = plain_text(file, file + ": there is no such parameter file, or it can't be read.");
     if (dealii::Utilities::trim(text).empty())
       throw InputError(file + ": this parameter file is empty.");
     lines = find_lines(file, text, {std::filesystem::canonical(file)});

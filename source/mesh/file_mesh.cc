@@ -229,6 +229,16 @@ namespace Supple
   } // namespace
 
 
+  std::size_t
+  announced(const std::string &word, const std::string &of)
+  {
+    if (word.empty() || word.size() > 12 ||
+        word.find_first_not_of("0123456789") != std::string::npos)
+      throw InputError("there should be the number of " + of + ", not '" + word + "'.");
+    return std::stoul(word);
+  }
+
+
   unsigned int
   id_of(const double number)
   {

@@ -1,14 +1,12 @@
 #include <supple/mesh/msh_blocks.h>
 
 #include <supple/base/error.h>
+#include <supple/base/files.h>
+#include <supple/base/packed_number.h>
 
-#include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
-#include <sstream>
 #include <unordered_map>
 
 namespace Supple
@@ -21,11 +19,8 @@ namespace Supple
       MshBlocks(const std::string &file, const MshFormat &format)
         : format(format)
         , is_old(format.version < 4.1)
+        , text(content_of(file))
       {
-        std::ifstream stream(file, std::ios::binary);
-        std::ostringstream content;
-        content << stream.rdbuf();
-        text = content.str();
       }
 
       void
@@ -72,7 +67,7 @@ namespace Supple
 
       const MshFormat format;
       const bool is_old; ///< version 4.0
-      std::string text;
+      const std::string text;
       std::size_t position = 0;
       std::unordered_map<std::size_t, dealii::Point<3>> places;
 
@@ -106,16 +101,10 @@ namespace Supple
             position = end - text.c_str();
             return static_cast<Number>(value);
           }
-        std::array<char, sizeof(Number)> bytes;
-        if (text.size() - position < bytes.size())
+        if (text.size() - position < sizeof(Number))
           throw InputError("the file ends before all that it announces is there.");
-        std::copy_n(text.begin() + position, bytes.size(), bytes.begin());
-        position += bytes.size();
-        if (format.swapped)
-          std::reverse(bytes.begin(), bytes.end());
-        Number value;
-        std::memcpy(&value, bytes.data(), bytes.size());
-        return value;
+        position += sizeof(Number);
+        return packed_number<Number>(&text[position - sizeof(Number)], format.swapped);
       }
 
       std::size_t

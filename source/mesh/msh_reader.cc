@@ -1,6 +1,8 @@
 #include <supple/mesh/msh_reader.h>
 
 #include <supple/base/error.h>
+#include <supple/base/files.h>
+#include <supple/base/packed_number.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -68,11 +70,8 @@ namespace Supple
 
       MshReader(const std::string &file, const MshFormat &format)
         : format(format)
+        , text(content_of(file))
       {
-        std::ifstream stream(file, std::ios::binary);
-        std::ostringstream content;
-        content << stream.rdbuf();
-        text = content.str();
         while (position < text.size())
           if (const std::string head = line(); head.rfind("$", 0) == 0)
             read_section(head);
@@ -81,8 +80,8 @@ namespace Supple
       }
 
     private:
-      MshFormat format;
-      std::string text;
+      const MshFormat format;
+      const std::string text;
       std::size_t position = 0;
       bool has_elements    = false;
 
@@ -115,11 +114,7 @@ namespace Supple
       std::size_t
       count(const std::string &of)
       {
-        const std::string words = line();
-        if (words.empty() || words.size() > 12 ||
-            words.find_first_not_of("0123456789") != std::string::npos)
-          throw InputError("there should be the number of " + of + ", not '" + words + "'.");
-        return std::stoul(words);
+        return announced(line(), of);
       }
 
       /** The numbers of the next line that is not empty; none at the end of a section. */
@@ -148,16 +143,10 @@ namespace Supple
       Number
       packed()
       {
-        std::array<char, sizeof(Number)> bytes;
-        if (text.size() - position < bytes.size())
+        if (text.size() - position < sizeof(Number))
           throw InputError("the file ends before all that it announces is there.");
-        std::copy_n(text.begin() + position, bytes.size(), bytes.begin());
-        position += bytes.size();
-        if (format.swapped)
-          std::reverse(bytes.begin(), bytes.end());
-        Number value;
-        std::memcpy(&value, bytes.data(), bytes.size());
-        return value;
+        position += sizeof(Number);
+        return packed_number<Number>(&text[position - sizeof(Number)], format.swapped);
       }
 
       static std::size_t

@@ -1,15 +1,14 @@
 #include <supple/mesh/text_readers.h>
 
 #include <supple/base/error.h>
+#include <supple/base/files.h>
+#include <supple/base/packed_number.h>
 #include <supple/mesh/vtk_grid.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
-#include <sstream>
 
 namespace Supple
 {
@@ -22,11 +21,8 @@ namespace Supple
       bool binary = false;
 
       explicit VtkStream(const std::string &file)
+        : text(content_of(file))
       {
-        std::ifstream stream(file, std::ios::binary);
-        std::ostringstream content;
-        content << stream.rdbuf();
-        text = content.str();
       }
 
       std::string
@@ -71,11 +67,7 @@ namespace Supple
       std::size_t
       count(const std::string &of)
       {
-        const std::string next = word();
-        if (next.empty() || next.size() > 12 ||
-            next.find_first_not_of("0123456789") != std::string::npos)
-          throw InputError("there should be the number of " + of + ", not '" + next + "'.");
-        return std::stoul(next);
+        return announced(word(), of);
       }
 
       /** So many numbers of a type, such as double; binary ones begin on the next line.
@@ -129,7 +121,7 @@ namespace Supple
       }
 
     private:
-      std::string text;
+      const std::string text;
       std::size_t position = 0;
 
       double
@@ -149,17 +141,11 @@ namespace Supple
       double
       packed_as(const std::string &of)
       {
-        std::array<char, sizeof(Number)> bytes;
-        if (text.size() - position < bytes.size())
+        if (text.size() - position < sizeof(Number))
           throw InputError("the file ends before all " + of + " are there.");
+        position += sizeof(Number);
         // The most significant byte comes first.
-        std::reverse_copy(text.begin() + position,
-                          text.begin() + position + bytes.size(),
-                          bytes.begin());
-        position += bytes.size();
-        Number value;
-        std::memcpy(&value, bytes.data(), bytes.size());
-        return value;
+        return packed_number<Number>(&text[position - sizeof(Number)], true);
       }
 
       double

@@ -1,15 +1,14 @@
 #include <supple/mesh/vtu_arrays.h>
 
 #include <supple/base/error.h>
+#include <supple/base/packed_number.h>
 
 #include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 
 namespace Supple
 {
@@ -107,26 +106,12 @@ namespace Supple
 
 
     template <class Number>
-    Number
-    number_at(const std::string &bytes, const std::size_t i, const bool swapped)
-    {
-      std::array<char, sizeof(Number)> own;
-      std::copy_n(bytes.begin() + i * own.size(), own.size(), own.begin());
-      if (swapped)
-        std::reverse(own.begin(), own.end());
-      Number value;
-      std::memcpy(&value, own.data(), own.size());
-      return value;
-    }
-
-
-    template <class Number>
     std::vector<double>
     numbers_as(const std::string &bytes, const bool swapped)
     {
       std::vector<double> values(bytes.size() / sizeof(Number));
       for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = number_at<Number>(bytes, i, swapped);
+        values[i] = packed_number<Number>(&bytes[i * sizeof(Number)], swapped);
       return values;
     }
 
@@ -237,8 +222,8 @@ namespace Supple
                 name_of(array));
     const auto size = [&]() -> std::size_t {
       if (wide_header)
-        return number_at<std::uint64_t>(bytes.take(8), 0, swapped);
-      return number_at<std::uint32_t>(bytes.take(4), 0, swapped);
+        return packed_number<std::uint64_t>(bytes.take(8).data(), swapped);
+      return packed_number<std::uint32_t>(bytes.take(4).data(), swapped);
     };
     if (!packed)
       return numbers_of(bytes.take(size()), array, swapped);

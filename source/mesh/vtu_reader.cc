@@ -1,29 +1,18 @@
 #include <supple/mesh/text_readers.h>
 
 #include <supple/base/error.h>
+#include <supple/base/files.h>
 #include <supple/mesh/vtk_grid.h>
 #include <supple/mesh/vtu_arrays.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 
 namespace Supple
 {
   namespace
   {
-    std::string
-    content_of(const std::string &file)
-    {
-      std::ifstream stream(file, std::ios::binary);
-      std::ostringstream content;
-      content << stream.rdbuf();
-      return content.str();
-    }
-
-
     /** A file as XML, and what it has appended: raw bytes are no XML. */
     struct VtuText
     {

@@ -40,16 +40,13 @@ namespace Supple
     std::optional<std::string>
     whole_content(const std::string &file)
     {
-      std::ifstream stream(file, std::ios::binary);
-      std::ostringstream text;
-      text << stream.rdbuf();
-      const std::string all = text.str();
+      const std::string all = content_of(file);
       if (all.rfind(any_head, 0) == 0 && all.rfind(head, 0) != 0 && all.find('\n') < all.size() - 1)
         throw InputError(file +
                          " is of another version of this program. Name another folder with "
                          "--output, or set Checkpoint/Resume = never, to begin anew.");
       const auto end = all.find('\n', std::min(head.size(), all.size()));
-      if (!stream || all.rfind(head, 0) != 0 || end == std::string::npos)
+      if (all.rfind(head, 0) != 0 || end == std::string::npos)
         return {};
       const std::string content = all.substr(end + 1);
       if (all.substr(head.size(), end + 1 - head.size()) != checksum(content))

@@ -20,6 +20,11 @@ namespace Supple
                         const std::function<void()> &make);
 
 
+  /** All bytes of a file; none if it can't be read. */
+  std::string
+  content_of(const std::string &file);
+
+
   /** Writes a text file aside and renames it, so that it is there as a whole or not at all. @throws
    * WriteError */
   void

@@ -34,6 +34,12 @@ namespace Supple
   };
 
 
+  /** The number that a word of a file announces. @param of what, for the message
+   * @throws InputError if it is no whole number of at most twelve digits */
+  std::size_t
+  announced(const std::string &word, const std::string &of);
+
+
   /** @throws InputError if the number of a group, a reference or the like is no id: a whole number,
    * 2147483647 at most, as in parameter files */
   unsigned int
