@@ -7,7 +7,6 @@ The same seed gives the same mutants; --only N repeats one. The driver is quicke
 in the folder, or else in a temporary one.
 """
 
-import argparse
 import os
 import pathlib
 import random
@@ -22,7 +21,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import runner
-from command_driver import CommandDriver
+import command_driver
 from mutations import RAW, REPORT, ParameterText, Text, entries
 
 # Of computing: on a busy machine the clock says little. A check takes .3 s, with sanitizers some seconds.
@@ -118,7 +117,7 @@ class Checker:
 
     def by_driver(self, scene):
         if not self.server:
-            self.server = CommandDriver(self.driver, self.folder, self.seconds, prepare=self.limit_memory)
+            self.server = command_driver.CommandDriver(self.driver, self.folder, self.seconds, prepare=self.limit_memory)
         _, status, _, error = self.server.run(scene.parent, ["--check", scene.name])
         return status, error
 
@@ -144,16 +143,9 @@ class Checker:
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("supple")
+    parser = command_driver.parser()
     parser.add_argument("--part", choices=PARTS)
-    parser.add_argument("--count", type=int, default=100)
     parser.add_argument("--minutes", type=float)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--only", type=int)
-    parser.add_argument("--driver")
-    parser.add_argument("--keep", type=pathlib.Path)
-    parser.add_argument("--messages", type=pathlib.Path, help="file for all messages, to be read")
     options = parser.parse_args()
 
     corpus = Corpus(pathlib.Path(tempfile.mkdtemp(prefix="supple-fuzz-")))

@@ -8,7 +8,6 @@ The same seed gives the same scenes; --only N repeats one. The driver is quicker
 is kept, and the command is printed.
 """
 
-import argparse
 import math
 import os
 import pathlib
@@ -25,7 +24,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import runner
-from command_driver import CommandDriver
+import command_driver
 from entry_values import EntryValues, kinds
 from mutations import RAW, REPORT
 from run_folder import RunFolder, Wrong, numbers, require
@@ -149,7 +148,7 @@ class Program:
     def __init__(self, folder, temporary, driver):
         self.folder = folder
         self.environment = dict(runner.ENVIRONMENT, TMPDIR=str(temporary))
-        self.driver = driver and CommandDriver(driver, temporary.parent, SECONDS, SECONDS_TO_STOP, {"TMPDIR": str(temporary)})
+        self.driver = driver and command_driver.CommandDriver(driver, temporary.parent, SECONDS, SECONDS_TO_STOP, {"TMPDIR": str(temporary)})
 
     @staticmethod
     def limit():
@@ -303,15 +302,8 @@ def compare(first, second):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("supple")
-    parser.add_argument("--count", type=int, default=100)
+    parser = command_driver.parser()
     parser.add_argument("--seconds", type=float)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--only", type=int)
-    parser.add_argument("--driver")
-    parser.add_argument("--keep", type=pathlib.Path)
-    parser.add_argument("--messages", type=pathlib.Path, help="file for all messages, to be read")
     options = parser.parse_args()
 
     fuzzer = Fuzzer(options.seed, options.driver)

@@ -18,18 +18,11 @@ def check(settings, ranks=1):
 
 
 def accepted(settings, *words):
-    status, output, error = check(settings)
-    runner.check(status == 0, f"{settings}: exit status {status}, {error}")
-    for word in words:
-        runner.check(word in output, f"{settings}: '{word}' is missing in\n{output}")
-    return output
+    return runner.accepted(check(settings), words, settings)
 
 
 def refused(settings, *words):
-    status, output, error = check(settings)
-    runner.check(status == 1 and output == "", f"{settings}: exit status {status}, {output}{error}")
-    for word in words:
-        runner.check(word in error, f"{settings}: '{word}' is missing in {error}")
+    error = runner.refused(check(settings), words, settings)
     runner.check(len(error) < 700 and error.startswith("supple: "), error)
 
 

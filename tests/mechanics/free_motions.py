@@ -36,10 +36,7 @@ def settings_of(name, regions="1: x < 1e-9", **more):
 
 def refused(settings, *words):
     for ranks in (1, 2):
-        status, output, error = runner.run("--check", scene, *runner.overrides(settings), ranks=ranks)
-        runner.check(status == 1, f"{settings}: exit status {status}, {output}{error}")
-        for word in words:
-            runner.check(word in error, f"'{word}' is missing in {error}")
+        runner.refused(runner.run("--check", scene, *runner.overrides(settings), ranks=ranks), words, settings)
 
 
 # One glued to a wall, the other standing on a smooth floor.

@@ -27,19 +27,13 @@ def check(name, *settings):
 
 
 def accepted(name, *words, settings=(), warnings=0):
-    status, output, error = check(name, *settings)
-    runner.check(status == 0, f"{name}: exit status {status}, {error}")
-    for word in words:
-        runner.check(word in output, f"{name}: '{word}' is missing in\n{output}")
+    output = runner.accepted(check(name, *settings), words, name)
     runner.check(output.count("warning") == warnings, f"{name}: {warnings} warning(s) were expected in\n{output}")
     return output
 
 
 def refused(name, *words, settings=()):
-    status, output, error = check(name, *settings)
-    runner.check(status == 1 and output == "", f"{name}: exit status {status}, {output}{error}")
-    for word in words:
-        runner.check(word in error, f"{name}: '{word}' is missing in {error}")
+    runner.refused(check(name, *settings), words, name)
 
 
 def save(name, text):

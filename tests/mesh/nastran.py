@@ -25,18 +25,12 @@ def check(text, name="body.bdf"):
 
 
 def accepted(text, words, warnings=0):
-    status, output, error = check(text)
-    runner.check(status == 0, f"{text}: exit status {status}, {error}")
-    for word in words:
-        runner.check(word in output, f"'{word}' is missing for\n{text}in\n{output}")
+    output = runner.accepted(check(text), words, text)
     runner.check(output.count("warning") == warnings, output)
 
 
 def refused(text, *words):
-    status, output, error = check(text)
-    runner.check(status == 1 and output == "", f"{text}: exit status {status}, {output}{error}")
-    for word in words:
-        runner.check(word in error, f"'{word}' is missing in {error}")
+    runner.refused(check(text), words, text)
 
 
 accepted("BEGIN BULK\n" + GRIDS + CELLS + FACES + "ENDDATA\n", BODY)

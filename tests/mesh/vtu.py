@@ -75,18 +75,12 @@ def check(data):
 
 
 def accepted(data, words, warnings=0):
-    status, output, error = check(data)
-    runner.check(status == 0, f"exit status {status}, {error}")
-    for word in words:
-        runner.check(word in output, f"'{word}' is missing in\n{output}")
+    output = runner.accepted(check(data), words, "body.vtu")
     runner.check(output.count("warning") == warnings, output)
 
 
 def refused(data, *words):
-    status, output, error = check(data)
-    runner.check(status == 1 and output == "", f"exit status {status}, {output}{error}")
-    for word in words:
-        runner.check(word in error, f"'{word}' is missing in {error}")
+    runner.refused(check(data), words, "body.vtu")
 
 
 accepted(Writer().file(ARRAYS), BODY)

@@ -1,9 +1,24 @@
 """The driver tests/driver/commands.cc: it starts once, and does what the program does with many command lines."""
 
+import argparse
 import os
+import pathlib
 import subprocess
 
 import runner
+
+
+def parser():
+    """What the scripts that try many inputs take from the command line."""
+    common = argparse.ArgumentParser()
+    common.add_argument("supple")
+    common.add_argument("--count", type=int, default=100)
+    common.add_argument("--seed", type=int, default=1)
+    common.add_argument("--only", type=int)
+    common.add_argument("--driver")
+    common.add_argument("--keep", type=pathlib.Path)
+    common.add_argument("--messages", type=pathlib.Path, help="file for all messages, to be read")
+    return common
 
 
 class CommandDriver:

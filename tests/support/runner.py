@@ -73,6 +73,24 @@ def check(condition, message):
         sys.exit("FAILED: " + message)
 
 
+def accepted(outcome, words, what):
+    """The screen of a run() that must succeed and say these words."""
+    status, output, error = outcome
+    check(status == 0, f"{what}: exit status {status}, {error}")
+    for word in words:
+        check(word in output, f"{what}: '{word}' is missing in\n{output}")
+    return output
+
+
+def refused(outcome, words, what):
+    """The message of a run() that must end with status 1, say these words and nothing else."""
+    status, output, error = outcome
+    check(status == 1 and output == "", f"{what}: exit status {status}, {output}{error}")
+    for word in words:
+        check(word in error, f"{what}: '{word}' is missing in {error}")
+    return error
+
+
 def largest_difference(first, second, columns):
     """Of two tables, each column measured by its largest value."""
     check(len(first) == len(second), f"{len(first)} and {len(second)} rows")
