@@ -113,6 +113,14 @@ namespace Supple
   }
 
 
+  void
+  Body::set_mass_product(Vector &y, const Vector &x) const
+  {
+    const GhostValues values(x);
+    sum_into(y, [&](double *sum) { cells->add_mass_product(values.data(), sum); });
+  }
+
+
   std::unique_ptr<VolumetricPatches>
   Body::make_patches(const bool linear) const
   {

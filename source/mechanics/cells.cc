@@ -278,47 +278,25 @@ namespace Supple
   }
 
 
-  /** A cell's mass matrix times its velocities gives the momenta of its nodes. */
   MotionSums
-  Cells::motion(const double *displacement, const double *velocity) const
+  Cells::motion(const double *displacement, const double *velocity, const double *momentum) const
   {
-    struct Sum
-    {
-      Pack kinetic{0.};
-      std::array<Pack, 3> linear{{0., 0., 0.}}, angular{{0., 0., 0.}};
-    };
-    const double *const rest = positions.empty() ? nullptr : positions.front().data();
-    const auto add           = [&](const std::size_t b, Sum &sum) {
-      const Batch &batch = batches[b];
-      NodalPack x        = gather(batch, displacement);
-      const NodalPack X = gather(batch, rest), v = gather(batch, velocity);
-      const NodalPack p = mass_product(b, v);
-      for (unsigned int a = 0; a < 4; ++a)
-        for (unsigned int i = 0; i < 3; ++i)
-          {
-            x[a][i] += X[a][i];
-            sum.kinetic += 0.5 * batch.owned * p[a][i] * v[a][i];
-            sum.linear[i] += batch.owned * p[a][i];
-          }
-      for (unsigned int a = 0; a < 4; ++a)
-        for (unsigned int i = 0; i < 3; ++i)
-          {
-            const unsigned int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-            sum.angular[i] += batch.owned * (x[a][i1] * p[a][i2] - x[a][i2] * p[a][i1]);
-          }
-    };
     MotionSums sums;
-    for (const Sum &sum : sums_of_chunks(Sum(), add))
+    for (std::size_t node = 0; node < n_owned; ++node)
       {
-        sums.kinetic += stdx::reduce(sum.kinetic);
+        Vector3 x, p;
         for (unsigned int i = 0; i < 3; ++i)
           {
-            sums.linear_momentum[i] += stdx::reduce(sum.linear[i]);
-            sums.angular_momentum[i] += stdx::reduce(sum.angular[i]);
+            const std::size_t dof = 3 * node + i;
+            x[i]                  = positions[node][i] + displacement[dof];
+            p[i]                  = momentum[dof];
+            sums.kinetic += 0.5 * p[i] * velocity[dof];
+            sums.linear_momentum[i] += p[i];
           }
+        const Vector3 angular = cross(x, p);
+        for (unsigned int i = 0; i < 3; ++i)
+          sums.angular_momentum[i] += angular[i];
       }
-    if (vertex_mass > 0.)
-      add_motion_of_vertices(displacement, velocity, sums);
     if (section.axisymmetric())
       {
         sums.linear_momentum[0] = 0.;
@@ -327,27 +305,6 @@ namespace Supple
     return sums;
   }
 
-
-  void
-  Cells::add_motion_of_vertices(const double *displacement,
-                                const double *velocity,
-                                MotionSums &sums) const
-  {
-    for (std::size_t node = 0; node < n_owned; ++node)
-      {
-        std::array<double, 3> x, p;
-        for (unsigned int i = 0; i < 3; ++i)
-          {
-            x[i] = positions[node][i] + displacement[3 * node + i];
-            p[i] = vertex_mass * velocity[3 * node + i];
-            sums.kinetic += 0.5 * p[i] * velocity[3 * node + i];
-            sums.linear_momentum[i] += p[i];
-          }
-        const std::array<double, 3> angular = cross(x, p);
-        for (unsigned int i = 0; i < 3; ++i)
-          sums.angular_momentum[i] += angular[i];
-      }
-  }
 
   CellSlots::CellSlots(const Cells &cells, const SymmetricPattern &pattern)
   {

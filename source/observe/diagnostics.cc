@@ -132,7 +132,7 @@ namespace Supple
 
 
   Measurement
-  Diagnostics::measure_body(const double time) const
+  Diagnostics::measure_body(const double time, const Vector *momentum) const
   {
     // A static scene has a part of the loads at time 1.
     Deformation deformation;
@@ -142,9 +142,16 @@ namespace Supple
     MotionSums motion;
     if (configuration.state.has_velocity())
       {
-        const GhostValues displacement(configuration.displacement());
-        const GhostValues velocity(configuration.velocity());
-        motion = configuration.body.cells->motion(displacement.data(), velocity.data());
+        Vector product;
+        if (momentum == nullptr)
+          {
+            configuration.body.initialize(product);
+            configuration.body.set_mass_product(product, configuration.velocity());
+            momentum = &product;
+          }
+        motion = configuration.body.cells->motion(configuration.displacement().begin(),
+                                                  configuration.velocity().begin(),
+                                                  momentum->begin());
       }
     const MPI_Comm communicator = configuration.body.mesh.communicator;
     std::vector<double> sums    = {motion.kinetic, double(deformation.inverted)};
@@ -173,7 +180,7 @@ namespace Supple
                        const double seconds,
                        const StepReport &report)
   {
-    Measurement result       = measure_body(time);
+    Measurement result       = measure_body(time, report.momentum);
     result.step              = step;
     result.time              = time;
     result.dt                = report.dt;

@@ -32,7 +32,8 @@ namespace Supple
     , guard(model)
     , guarded(settings.energy_guard == TimeParameters::EnergyGuard::reject)
   {
-    for (Vector *vector : {&imbalance, &applied})
+    for (Vector *vector :
+         {&imbalance, &applied, &load, &momentum, &momentum_at_start, &du, &dv, &dp})
       model.body.initialize(*vector);
     system.solve = [this](double *x, const double *b) {
       return failure.guard([&] { equation.solve(x, b); });
@@ -188,14 +189,17 @@ namespace Supple
     configuration.begin_step();
     if (!started && (observed || guarded))
       set_forces(time);
+    if (observed || guarded)
+      set_momentum_at_start();
+    has_momentum = false;
     if (!started && guarded)
-      guard.start(time);
+      guard.start(time, momentum_at_start);
     started = true;
 
     const double start                   = time;
     const unsigned int iterations_so_far = equation.linear_iterations;
     StepReport report                    = step_once(observed || guarded);
-    while (guarded && guard.rises(time, report.load_work) && make_safer())
+    while (guarded && guard.rises(report) && make_safer())
       {
         try
           {
@@ -265,6 +269,16 @@ namespace Supple
 
 
   void
+  DynamicIntegrator::set_momentum_at_start()
+  {
+    if (has_momentum)
+      momentum_at_start.swap(momentum);
+    else
+      model.body.set_mass_product(momentum_at_start, model.configuration.velocity());
+  }
+
+
+  void
   DynamicIntegrator::set_forces(const double at_time)
   {
     Effort uncounted; // these forces are for the eye alone
@@ -288,11 +302,15 @@ namespace Supple
     const PhaseTimer timer(model.effort, Phase::diagnostics);
     const Configuration &configuration = model.configuration;
     const State &start                 = configuration.start_of_step();
-    Vector du = configuration.displacement(), dv = configuration.velocity(), inertia;
+    du                                 = configuration.displacement();
+    dv                                 = configuration.velocity();
     du -= start.displacement;
     dv -= start.velocity;
-    model.body.initialize(inertia);
-    equation.full_mass_product(inertia, dv);
+    model.body.set_mass_product(momentum, configuration.velocity());
+    has_momentum    = true;
+    report.momentum = &momentum;
+    dp              = momentum;
+    dp -= momentum_at_start;
 
     // Half the work of the forces at the start of the step, half of those at its end; or all of
     // these.
@@ -317,7 +335,7 @@ namespace Supple
     if (model.constraints.move())
       {
         // Moved vertices may change their velocity at once: then its mean counts.
-        set_reactions(inertia);
+        set_reactions(dp);
         report.load_work += backward_euler
                               ? (reactions() * du) / report.dt
                               : reactions() * start.velocity + 0.5 * (reactions() * dv);
@@ -325,12 +343,11 @@ namespace Supple
 
     if (backward_euler)
       {
-        Vector load = inertia;
         model.forces.set_loads(load, configuration, report.time);
-        report.expended = 0.5 * (dv * inertia) + imbalance * du + load * du;
+        report.expended = 0.5 * (dv * dp) + imbalance * du + load * du;
       }
-    inertia *= 1. / report.dt;
-    inertia += imbalance;
-    set_reactions(inertia);
+    dp *= 1. / report.dt;
+    dp += imbalance;
+    set_reactions(dp);
   }
 } // namespace Supple

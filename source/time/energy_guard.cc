@@ -14,19 +14,19 @@ namespace Supple
 
 
   void
-  EnergyGuard::start(const double time)
+  EnergyGuard::start(const double time, const Vector &momentum)
   {
-    first   = energy(time);
+    first   = energy(time, momentum);
     largest = std::max(largest, std::abs(first));
   }
 
 
   bool
-  EnergyGuard::rises(const double time, const double work)
+  EnergyGuard::rises(const StepReport &report)
   {
-    last    = energy(time);
-    largest = std::max({largest, std::abs(last), std::abs(work)});
-    return !(last - first - work <= energy_accuracy * largest);
+    last    = energy(report.time, *report.momentum);
+    largest = std::max({largest, std::abs(last), std::abs(report.load_work)});
+    return !(last - first - report.load_work <= energy_accuracy * largest);
   }
 
 
@@ -38,14 +38,14 @@ namespace Supple
 
 
   double
-  EnergyGuard::energy(const double time) const
+  EnergyGuard::energy(const double time, const Vector &momentum) const
   {
     const Configuration &configuration = model.configuration;
     Deformation deformation;
     const Energies energies = model.forces.energies(configuration, time, 1., deformation);
-    const GhostValues displacement(configuration.displacement()),
-      velocity(configuration.velocity());
-    const MotionSums motion = model.body.cells->motion(displacement.data(), velocity.data());
+    const MotionSums motion = model.body.cells->motion(configuration.displacement().begin(),
+                                                       configuration.velocity().begin(),
+                                                       momentum.begin());
     return dealii::Utilities::MPI::sum(motion.kinetic, model.body.mesh.communicator) +
            energies.elastic + energies.potential;
   }

@@ -148,7 +148,7 @@ namespace Supple
     if (!inertia_couples)
       return;
     model.constraints.copy_held(shift, held);
-    full_mass_product(force, shift);
+    model.body.set_mass_product(force, shift);
     model.constraints.set_zero(force);
     shift = 0.;
     mass_solver.solve(shift, force);
@@ -163,7 +163,7 @@ namespace Supple
     model.forces.set_force(net, model.configuration, time, effort);
     if (damping.mass_factor > 0.)
       {
-        full_mass_product(scratch, velocity);
+        model.body.set_mass_product(scratch, velocity);
         net.add(-damping.mass_factor, scratch);
       }
     if (damping.viscous > 0.)
@@ -371,11 +371,4 @@ namespace Supple
     ++stage_solutions;
   }
 
-
-  void
-  EquationOfMotion::full_mass_product(Vector &y, const Vector &x) const
-  {
-    const GhostValues values(x);
-    sum_into(y, [&](double *sum) { model.body.cells->add_mass_product(values.data(), sum); });
-  }
 } // namespace Supple

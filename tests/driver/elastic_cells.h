@@ -51,7 +51,11 @@ namespace Supple
       Sums sums;
       static_cast<Deformation &>(sums) = law->deformation(rotations, u);
       if (v != nullptr)
-        static_cast<MotionSums &>(sums) = cells->motion(u, v);
+        {
+          std::vector<double> momentum(3 * cells->n_owned);
+          cells->add_mass_product(v, momentum.data());
+          static_cast<MotionSums &>(sums) = cells->motion(u, v, momentum.data());
+        }
       return sums;
     }
 

@@ -71,6 +71,10 @@ namespace Supple
     void
     initialize(Vector &vector) const;
 
+    /** y = M x on all rows, those held included. */
+    void
+    set_mass_product(Vector &y, const Vector &x) const;
+
     /** Of the cells with this material id. */
     const IsotropicMaterial &
     material(unsigned int id) const;

@@ -24,7 +24,7 @@ namespace Supple
   };
 
 
-  /** Kinetic energy and momenta of the owned cells of one process. */
+  /** Kinetic energy and momenta of the owned nodes of one process. */
   struct MotionSums
   {
     double kinetic = 0.;                        ///< [J]
@@ -213,9 +213,10 @@ namespace Supple
     void
     add_load(const double *force_density, double *force) const;
 
-    /** An axisymmetric body has no momenta but that along its axis. */
+    /** An axisymmetric body has no momenta but that along its axis.
+     * @param momentum M v on all rows [kg m/s], see add_mass_product() */
     MotionSums
-    motion(const double *displacement, const double *velocity) const;
+    motion(const double *displacement, const double *velocity, const double *momentum) const;
 
     const std::size_t n_cells;
     const unsigned int n_owned; ///< nodes
@@ -262,11 +263,6 @@ namespace Supple
     /** The cell's mass matrix times nodal values. */
     NodalPack
     mass_product(std::size_t batch, const NodalPack &values) const;
-
-    void
-    add_motion_of_vertices(const double *displacement,
-                           const double *velocity,
-                           MotionSums &sums) const;
 
     const bool lumped_mass;
     const double pair_share; ///< what two nodes of a cell share of its mass

@@ -48,9 +48,10 @@ namespace Supple
     }
 
   private:
-    /** Energies, momenta and volumes; neither dissipated nor work. */
+    /** Energies, momenta and volumes; neither dissipated nor work.
+     * @param momentum M v, or null if it must be computed */
     Measurement
-    measure_body(double time) const;
+    measure_body(double time, const Vector *momentum) const;
 
     void
     note_extremes(const Measurement &measurement, double rise);

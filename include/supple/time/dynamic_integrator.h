@@ -117,6 +117,10 @@ namespace Supple
     void
     observe(StepReport &report);
 
+    /** To be called before a step that is observed. */
+    void
+    set_momentum_at_start();
+
     /** Sets imbalance and applied. */
     void
     set_forces(double at_time);
@@ -132,10 +136,15 @@ namespace Supple
 
     EnergyGuard guard;
     const bool guarded;
-    bool started    = false;
-    bool keeps_past = false;
-    Vector imbalance; ///< f_int + D v - f, at the end of the last observed step [N]
-    Vector applied;   ///< of f, what is counted as work [N]
+    bool started      = false;
+    bool keeps_past   = false;
+    bool has_momentum = false; ///< of the configuration: the last step was observed
+    Vector momentum;           ///< M v of the configuration [kg m/s]
+    Vector momentum_at_start;  ///< of the step
+    Vector du, dv, dp;         ///< over the last observed step: displacement, velocity, momentum
+    Vector imbalance;          ///< f_int + D v - f, at the end of the last observed step [N]
+    Vector load;               ///< those of f that are loads [N]
+    Vector applied;            ///< of f, what is counted as work [N]
   };
 } // namespace Supple
 

@@ -14,11 +14,11 @@ namespace Supple
 
     /** Where the energy is counted from: the configuration at this time, with its rotations. */
     void
-    start(double time);
+    start(double time, const Vector &momentum);
 
-    /** Whether it has risen since, by more than @p work [J] and round-off. */
+    /** Whether it has risen in a step, by more than the work of the loads and round-off. */
     bool
-    rises(double time, double work);
+    rises(const StepReport &report);
 
     /** The last configuration that was looked at becomes the start. */
     void
@@ -27,7 +27,7 @@ namespace Supple
   private:
     /** Kinetic, elastic and potential [J]. */
     double
-    energy(double time) const;
+    energy(double time, const Vector &momentum) const;
 
     const Model model;
     double first   = 0.; ///< at the start [J]

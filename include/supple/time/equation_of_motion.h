@@ -83,10 +83,6 @@ namespace Supple
     void
     solve_newton(double *x, const double *b);
 
-    /** y = M x on all rows, held ones included. */
-    void
-    full_mass_product(Vector &y, const Vector &x) const;
-
     /** force = f(t) - f_int - D v of the configuration, on all rows; what is counted of it goes to
      * @p effort. */
     void

@@ -1,6 +1,8 @@
 #ifndef supple_step_report_h
 #define supple_step_report_h
 
+#include <supple/linear_algebra/vector.h>
+
 #include <optional>
 
 namespace Supple
@@ -23,6 +25,10 @@ namespace Supple
      * balance of energies is taken for dissipated.
      */
     std::optional<double> expended;
+
+    /** M v at the end of an observed step [kg m/s], on all rows; lives until the next step. Null in
+     * static scenes. */
+    const Vector *momentum = nullptr;
   };
 
 
