@@ -115,6 +115,27 @@ namespace Supple
   }
 
 
+  std::string
+  Description::errors_in_words() const
+  {
+    using Estimate = SpaceParameters::Estimate;
+    std::string text;
+    if (problem.parameters.time.estimate_error)
+      text = "in time by a second run, ";
+    else if (!problem.stationary)
+      text = "in time not estimated beyond single steps (Time/Estimate error), ";
+    switch (problem.parameters.space.estimate)
+      {
+        case Estimate::end:
+          return text + "in space estimated at the end";
+        case Estimate::frames:
+          return text + "in space estimated at each frame and at the end";
+        default:
+          return text + "in space not estimated (Space/Estimate error)";
+      }
+  }
+
+
   void
   Description::print(const bool in_detail) const
   {
@@ -146,6 +167,8 @@ namespace Supple
       line("solver", problem.solver->name() + " (" + problem.solver->reason + ")");
     for (const std::string &text : probes.descriptions())
       line("probe", text);
+    if (in_detail)
+      line("error", errors_in_words());
     if (course.resumed())
       line("resumed", "goes on from " + course.origin);
     for (const std::string &text : warnings())
@@ -282,6 +305,25 @@ namespace Supple
   }
 
 
+  namespace
+  {
+    /** By the second run; empty if there is none, or no motion. */
+    std::string
+    error_in_time(const Summary &summary)
+    {
+      const StepDoubling *const second = summary.step_doubling;
+      if (!second)
+        return "";
+      if (!second->failure.empty())
+        return "in time unknown, for the second run failed: " + second->failure;
+      if (summary.largest_motion == 0.)
+        return "";
+      return "in time " + digits(100. * second->largest / summary.largest_motion, 2) +
+             " % of the motion (" + second->name + ")";
+    }
+  } // namespace
+
+
   void
   print_result(const Summary &summary,
                const std::string &folder,
@@ -303,15 +345,10 @@ namespace Supple
         line("warning", text);
     if (!report.empty())
       line("report", report);
-    const StepDoubling *const second = summary.step_doubling;
-    if (!second)
-      return;
-    if (second->failure.empty() && summary.largest_motion > 0.)
-      std::cout << "error: " << second->largest << " m ("
-                << 100. * second->largest / summary.largest_motion << " % of the motion), "
-                << second->last << " m at the end, by a second run with " << second->name << " in "
-                << readable_duration(second->seconds) << std::endl;
-    else if (!second->failure.empty())
-      std::cout << "error: unknown, for the second run failed: " << second->failure << std::endl;
+    std::string errors = error_in_time(summary);
+    if (summary.space_errors)
+      errors += (errors.empty() ? "" : ", ") + summary.space_errors->in_words();
+    if (!errors.empty())
+      std::cout << "error: " << errors << std::endl;
   }
 } // namespace Supple

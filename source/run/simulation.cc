@@ -195,13 +195,20 @@ namespace Supple
   Simulation::observe(const unsigned int after_step, const StepReport &report)
   {
     const PhaseTimer timer(problem.effort, Phase::diagnostics);
-    const double seconds    = course.seconds() - (second_run ? second_run->seconds : 0.);
-    const Measurement next  = diagnostics.measure(after_step, report.time, seconds, report);
+    const Measurement next  = diagnostics.measure(after_step, report.time, own_seconds(), report);
     probes_now              = probe_values(next);
     const std::string wrong = objection(next);
     if (!wrong.empty())
       refuse(wrong, next);
     course.now = next;
+  }
+
+
+  double
+  Simulation::own_seconds() const
+  {
+    return course.seconds() - (second_run ? second_run->seconds : 0.) -
+           (space ? space->seconds : 0.);
   }
 
 

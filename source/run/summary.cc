@@ -249,6 +249,8 @@ namespace Supple
       add_spread(json, *spread);
     if (has_mass)
       json["error_estimate"] = errors(*this);
+    if (space_errors)
+      json["error_estimate"]["space"] = space_errors->to_json();
     if (observed)
       {
         json["last"]     = energies(last);

@@ -13,6 +13,7 @@
 #include <supple/run/problem.h>
 #include <supple/run/results.h>
 #include <supple/run/skipped_pulses.h>
+#include <supple/run/space_estimate.h>
 #include <supple/run/step_doubling.h>
 #include <supple/run/summary.h>
 #include <supple/run/writers.h>
@@ -99,6 +100,14 @@ namespace Supple
     std::unique_ptr<StepDoubling>
     make_second_run() const;
 
+    /** What estimates the error in space of this run; null if nobody asks for it. */
+    std::unique_ptr<SpaceEstimate>
+    make_space_estimate();
+
+    /** Of the run, without those of others that move along. */
+    double
+    own_seconds() const;
+
     /** All that follow the run, each by one line. */
     void
     add_listeners(Listener *guest);
@@ -161,6 +170,7 @@ namespace Supple
     const Vector start_displacement;
 
     Results results;
+    std::unique_ptr<SpaceEstimate> space;
     FrameWriter *frames      = nullptr; ///< of the results
     Checkpoints *checkpoints = nullptr; ///< of the results
     Interruption interruption;
