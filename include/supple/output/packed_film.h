@@ -23,8 +23,9 @@ namespace Supple
    * places, all little-endian: rest positions (3 float each), triangles (3 uint32), the place of
    * their material among those that occur (1 uint16, one more if their number is odd), and a zlib
    * stream of the frames. The values of a frame are displacements (3 int16 each), volume ratio, von
-   * Mises stress and, if there are three fields, error in space of the triangles (uint16). The stream has their differences d from the frame
-   * before, as 2 d or -2 d - 1 (uint16): the low bytes of a frame, then its high ones.
+   * Mises stress and, if there are three fields, error in space of the triangles (uint16). The
+   * stream has their differences d from the frame before, as 2 d or -2 d - 1 (uint16): the low
+   * bytes of a frame, then its high ones.
    */
   class PackedFilm
   {
