@@ -57,24 +57,25 @@ namespace Supple
   bool
   PointForces::matter(const Vector &reactions, const Vector &loads) const
   {
-    constexpr double little = 0.05; // of the forces; staggered meshes have a few per cent of noise
+    constexpr double little =
+      0.05; // of the forces; vertices held on a plane of symmetry have noise
     const auto size = [](const Vector &forces, const unsigned int first, const unsigned int n) {
       double square = 0.;
       for (unsigned int dof = first; dof < first + n; ++dof)
         square += forces.local_element(dof) * forces.local_element(dof);
       return std::sqrt(square);
     };
-    double alone = 0., all = 0.;
+    std::vector<double> here(4), all(4); // held alone, reactions, loads at points, loads
     for (const unsigned int dof : held_alone)
-      alone += size(reactions, dof, 1);
+      here[0] += size(reactions, dof, 1);
     for (unsigned int node = 0; node < body.n_owned; ++node)
       {
         const double load = size(loads, 3 * node, 3);
-        all += load + size(reactions, 3 * node, 3);
-        if (is_loaded[node])
-          alone += load;
+        here[1] += size(reactions, 3 * node, 3);
+        here[2] += is_loaded[node] ? load : 0.;
+        here[3] += load;
       }
-    return Utilities::MPI::sum(alone, body.mesh.communicator) >
-           little * Utilities::MPI::sum(all, body.mesh.communicator);
+    Utilities::MPI::sum(here, body.mesh.communicator, all);
+    return all[0] > little * (all[1] + all[3]) || all[2] > little * all[3];
   }
 } // namespace Supple
