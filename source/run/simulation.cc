@@ -57,6 +57,20 @@ namespace Supple
   }
 
 
+  std::unique_ptr<SpaceEstimate>
+  Simulation::make_space_estimate()
+  {
+    if (!observed || problem.parameters.space.estimate == SpaceParameters::Estimate::never)
+      return nullptr;
+    return std::make_unique<SpaceEstimate>(problem,
+                                           *integrator,
+                                           probes,
+                                           [this](const Measurement &now) {
+                                             return frames && frames->written().due(now);
+                                           });
+  }
+
+
   void
   Simulation::check()
   {
@@ -75,16 +89,23 @@ namespace Supple
     observed                     = history || results.writes_frames || guest;
     probed                       = !probes.empty() && (history || guest);
     Diagnostics *const asked     = observed ? &diagnostics : nullptr;
+    space                        = make_space_estimate();
 
+    const bool of_frames = space && parameters.space.estimate == SpaceParameters::Estimate::frames;
+    const SpaceEstimate *const space_of_frames = of_frames ? space.get() : nullptr;
+
+    listeners.add(space.get());
     listeners.add(results.add<ProfileTables>(
       history && !profiles.empty(), effort, profiles, parameters.probes.profile_every));
-    listeners.add(results.add<HistoryTable>(history, effort));
+    listeners.add(results.add<HistoryTable>(history, effort, space_of_frames));
     listeners.add(results.add<ProbeTable>(history && !probes.empty(), effort, probes));
     listeners.add(frames = results.add<FrameWriter>(results.writes_frames,
                                                     effort,
                                                     problem.configuration,
                                                     problem.forces.elastic(),
-                                                    parameters.output));
+                                                    parameters.output,
+                                                    space ? &space->of_cells() : nullptr,
+                                                    of_frames));
     listeners.add(&pulses);
     listeners.add(guest);
     listeners.add(second_run.get());
@@ -299,7 +320,7 @@ namespace Supple
   Summary
   Simulation::summarize(const std::string &status)
   {
-    const double seconds = course.seconds() - (second_run ? second_run->seconds : 0.);
+    const double seconds = own_seconds();
     Summary summary(problem.parameters, problem.model());
     summary.status         = status;
     summary.warnings       = description().warnings();
@@ -311,12 +332,17 @@ namespace Supple
     summary.error_estimate = course.error_estimate;
     summary.largest_motion = course.largest_motion;
     summary.step_doubling  = second_run.get();
-    summary.frames         = frames ? frames->written().n_written() : 0;
-    summary.history        = results.writes_history;
-    summary.probes         = results.writes_history && !probes.empty();
-    summary.observed       = observed;
-    summary.last           = course.now;
-    summary.extremes       = diagnostics.extremes();
+    if (space)
+      summary.space_errors = space->at_the_end();
+    if (summary.space_errors)
+      for (const std::string &text : summary.space_errors->warnings())
+        summary.warnings.push_back(text);
+    summary.frames   = frames ? frames->written().n_written() : 0;
+    summary.history  = results.writes_history;
+    summary.probes   = results.writes_history && !probes.empty();
+    summary.observed = observed;
+    summary.last     = course.now;
+    summary.extremes = diagnostics.extremes();
     return summary;
   }
 } // namespace Supple
