@@ -157,21 +157,40 @@ namespace Supple
       n_cells[site] = start[site + 1] - start[site];
     halo.update(reinterpret_cast<char *>(n_cells.data()), n_slots * sizeof(unsigned int));
 
-    const unsigned int least = least_cells(n_nodes);
+    std::vector<unsigned int> known(materials.size());
+    for (std::size_t site = 0; site < known.size(); ++site)
+      known[site] = n_cells[site] >= least_cells(n_nodes);
     start_of_neighbours.push_back(0);
+    for (bool more = true; more;)
+      {
+        const std::size_t before = poor.size();
+        find_poor_sites_beside(known);
+        more = dealii::Utilities::MPI::max(poor.size() - before, body.mesh.communicator) > 0;
+        if (more)
+          end_of_round.push_back(poor.size());
+        for (std::size_t number = before; number < poor.size(); ++number)
+          known[poor[number]] = 1;
+        halo.update(reinterpret_cast<char *>(known.data()), n_slots * sizeof(unsigned int));
+      }
+  }
+
+
+  void
+  Recovery::find_poor_sites_beside(const std::vector<unsigned int> &known)
+  {
     for (std::size_t site = 0; site < std::size_t(n_slots) * body.n_owned; ++site)
       {
-        if (n_cells[site] == 0 || n_cells[site] >= least)
+        if (known[site])
           continue;
         for (std::size_t k = start[site]; k < start[site + 1]; ++k)
           for (unsigned int a = 0; a < n_nodes; ++a)
-            if (const auto near = sites_of_cells[cells_around[k]][a]; n_cells[near] >= least)
+            if (const auto near = sites_of_cells[cells_around[k]][a]; known[near])
               neighbours.push_back(near);
         const auto first = neighbours.begin() + start_of_neighbours.back();
         std::sort(first, neighbours.end());
         neighbours.erase(std::unique(first, neighbours.end()), neighbours.end());
         if (neighbours.size() == start_of_neighbours.back())
-          continue; // its own polynomial is all there is
+          continue;
         poor.push_back(site);
         start_of_neighbours.push_back(neighbours.size());
       }
@@ -216,22 +235,25 @@ namespace Supple
   }
 
 
-  Octet
+  Recovery::Fit
   Recovery::mean_of_neighbours(const std::size_t number, const std::vector<Fit> &fits) const
   {
     const Place &vertex     = body.positions[poor[number] / n_slots];
     const std::size_t begin = start_of_neighbours[number], end = start_of_neighbours[number + 1];
-    Octet sum{};
+    const double share      = 1. / (end - begin);
+    Fit mean{};
     for (std::size_t k = begin; k < end; ++k)
       {
         const Fit &near    = fits[neighbours[k]];
         const Place &place = body.positions[neighbours[k] / n_slots];
-        sum.lanes += near.value.lanes;
+        mean.value.lanes += share * near.value.lanes;
         for (unsigned int i = 0; i < 3; ++i)
-          sum.lanes += (vertex[i] - place[i]) * near.slopes[i].lanes;
+          {
+            mean.value.lanes += share * (vertex[i] - place[i]) * near.slopes[i].lanes;
+            mean.slopes[i].lanes += share * near.slopes[i].lanes;
+          }
       }
-    sum.lanes /= double(end - begin);
-    return sum;
+    return mean;
   }
 
 
@@ -242,14 +264,17 @@ namespace Supple
     for (std::size_t site = 0; site < std::size_t(n_slots) * body.n_owned; ++site)
       if (start[site + 1] > start[site])
         fits[site] = fit(site, of_cells);
-    if (dealii::Utilities::MPI::max(poor.size(), body.mesh.communicator) > 0)
-      halo.update(reinterpret_cast<char *>(fits.data()), n_slots * sizeof(Fit));
+    std::size_t number = 0;
+    for (const std::size_t end : end_of_round)
+      {
+        halo.update(reinterpret_cast<char *>(fits.data()), n_slots * sizeof(Fit));
+        for (; number < end; ++number)
+          fits[poor[number]] = mean_of_neighbours(number, fits);
+      }
 
     Field field{std::move(of_cells), std::vector<Octet>(fits.size())};
     for (std::size_t site = 0; site < fits.size(); ++site)
       field.of_sites[site] = fits[site].value;
-    for (std::size_t number = 0; number < poor.size(); ++number)
-      field.of_sites[poor[number]] = mean_of_neighbours(number, fits);
     halo.update(reinterpret_cast<char *>(field.of_sites.data()), n_slots * sizeof(Octet));
     return field;
   }
@@ -310,13 +335,17 @@ namespace Supple
   Recovery::mean_difference(const Field &x, const std::size_t cell) const
   {
     const std::array<Octet, 4> d = differences(x, cell);
-    const bool around            = body.mesh.section.axisymmetric();
-    std::array<double, 3> r{};
-    if (around)
-      r = nodal_radii(cell);
     Octet mean{};
-    for (unsigned int a = 0; a < n_nodes; ++a)
-      mean.lanes += (around ? (3. + r[a]) / 12. : 1. / n_nodes) * d[a].lanes;
+    if (!body.mesh.section.axisymmetric())
+      {
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          mean.lanes += d[a].lanes;
+        mean.lanes /= n_nodes;
+        return mean;
+      }
+    const std::array<double, 3> r = nodal_radii(cell);
+    for (unsigned int a = 0; a < 3; ++a)
+      mean.lanes += (3. + r[a]) / 12. * d[a].lanes;
     return mean;
   }
 } // namespace Supple

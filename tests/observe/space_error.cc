@@ -50,7 +50,7 @@ namespace
       subsection Mesh
         set Box size = 2, 1, 1
         set Box cubes = 6, 4, 3
-        set Layers = 1, 2
+        set Layers = 0.5, 0.5
         set Map = x + 0.06*sin(20*y + 9*z)*(x*(2-x) > 1e-9); y + 0.06*sin(8*x + 5*z)*(y*(1-y) > 1e-9); z
       end
       subsection Material
@@ -76,7 +76,7 @@ namespace
         set Poisson ratio = 0.3
       end
       subsection Constraints
-        set Boundaries held along y = 2
+        set Clamped boundaries = 0
       end
 )";
 

@@ -23,8 +23,8 @@ namespace Supple
    * the linear polynomial that fits best, in the mean square weighted by the volume, the cells
    * around the vertex at their centroids. A linear field is recovered exactly.
    *
-   * Where too few cells meet for that, on edges and at corners, the value is the mean of the
-   * polynomials of the neighbours along edges, taken at the vertex.
+   * Where too few cells meet for that, on edges and at corners, the polynomial is the mean of those
+   * of the neighbours along edges; where these have too few as well, it is found after theirs.
    *
    * Stresses jump between materials: a vertex has a value for each material that meets there, from
    * the cells of that material alone. Such a pair is a site.
@@ -88,9 +88,13 @@ namespace Supple
     void
     find_sites();
 
-    /** Those with too few cells, and their neighbours. */
+    /** Those with too few cells, and the neighbours that their polynomials come from. */
     void
     find_poor_sites();
+
+    /** Those whose neighbours are known already. @param known of all sites */
+    void
+    find_poor_sites_beside(const std::vector<unsigned int> &known);
 
     std::size_t
     site_of(unsigned int node, unsigned int material) const;
@@ -98,8 +102,8 @@ namespace Supple
     Fit
     fit(std::size_t site, const std::vector<Octet> &of_cells) const;
 
-    /** The mean of the polynomials of the neighbours at a poor site. */
-    Octet
+    /** The mean of the polynomials of the neighbours of a poor site. */
+    Fit
     mean_of_neighbours(std::size_t poor, const std::vector<Fit> &fits) const;
 
     std::array<Octet, 4>
@@ -119,6 +123,7 @@ namespace Supple
     std::vector<std::size_t> start;          ///< of each site in cells_around
     std::vector<std::uint32_t> cells_around; ///< complete for sites of owned nodes
     std::vector<std::uint32_t> poor;         ///< sites of owned nodes
+    std::vector<std::size_t> end_of_round;   ///< in poor: each takes from those before
     std::vector<std::size_t> start_of_neighbours;
     std::vector<std::uint32_t> neighbours; ///< sites, of those in poor
   };
