@@ -240,7 +240,7 @@ namespace Supple
   {
     const Place &vertex     = body.positions[poor[number] / n_slots];
     const std::size_t begin = start_of_neighbours[number], end = start_of_neighbours[number + 1];
-    const double share      = 1. / (end - begin);
+    const double share = 1. / (end - begin);
     Fit mean{};
     for (std::size_t k = begin; k < end; ++k)
       {

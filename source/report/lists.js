@@ -27,7 +27,7 @@ function timeEntries(error) {
   const second = error.step_doubling;
   return [['largest motion', quantity(error.largest_motion, 'm')],
     ['sum of local errors', error.sum_of_local_errors === null ? 'unknown for this method' : `${quantity(error.sum_of_local_errors, 'm', 3)} (${percent(error.relative)} of the motion)`],
-    ['by a second run', !second ? null : second.failed ? `unknown: ${second.failed}` : `${quantity(second.largest, 'm', 3)} (${percent(second.relative)})`]];
+    ['by a second run', !second ? null : second.failed ? `unknown: ${second.failed}` : `${second.at_least ? 'more than ' : ''}${quantity(second.largest, 'm', 3)} (${percent(second.relative)}${second.order === undefined ? '' : `, order ${digits(second.order, 2)}`})`]];
 }
 
 function errorEntries(error) {

@@ -123,7 +123,7 @@ namespace Supple
     if (problem.parameters.time.estimate_error)
       text = "in time by a second run, ";
     else if (!problem.stationary)
-      text = "in time not estimated beyond single steps (Time/Estimate error), ";
+      text = "in time estimated step by step (Time/Estimate error), ";
     switch (problem.parameters.space.estimate)
       {
         case Estimate::end:
@@ -307,19 +307,52 @@ namespace Supple
 
   namespace
   {
-    /** By the second run; empty if there is none, or no motion. */
+    /** "", "about ", "more than " */
+    std::string
+    how_sure(const StepDoubling &second)
+    {
+      if (second.observed())
+        return second.observed()->at_least ? "more than " : "about ";
+      return second.third_failure.empty() ? "" : "more than ";
+    }
+
+
+    /** ", order 0.9", ", order 0.2 where it should be 1" */
+    std::string
+    order_of(const StepDoubling &second)
+    {
+      if (!second.observed() || !second.observed()->order)
+        return "";
+      return ", order " + digits(*second.observed()->order, 2) +
+             (second.observed()->at_least ? " where it should be " + std::to_string(second.order)
+                                          : "");
+    }
+
+
+    /** By the second run, or else by the local errors; empty if nothing is known, or moves. */
     std::string
     error_in_time(const Summary &summary)
     {
       const StepDoubling *const second = summary.step_doubling;
-      if (!second)
-        return "";
-      if (!second->failure.empty())
+      if (second && !second->failure.empty())
         return "in time unknown, for the second run failed: " + second->failure;
-      if (summary.largest_motion == 0.)
+      if (!summary.has_mass || summary.largest_motion == 0.)
         return "";
-      return "in time " + digits(100. * second->largest / summary.largest_motion, 2) +
-             " % of the motion (" + second->name + ")";
+      const auto of_motion = [&](const double error) {
+        const double percent = 100. * error / summary.largest_motion;
+        return (percent < 99.5 ? digits(percent, 2) : std::to_string(std::lround(percent))) +
+               " % of the motion (";
+      };
+      if (second)
+        return "in time " + how_sure(*second) + of_motion(second->best()) + second->name() +
+               order_of(*second) + ")";
+      if (!summary.local_errors_add_up || !std::isfinite(summary.error_estimate))
+        return "";
+      const bool large = summary.error_estimate > 0.5 * summary.largest_motion;
+      return "in time " +
+             (large ? "perhaps more than " + of_motion(0.5 * summary.largest_motion)
+                    : "about " + of_motion(summary.error_estimate)) +
+             "sum of local errors)";
     }
   } // namespace
 

@@ -22,6 +22,9 @@ namespace Supple
     // A relative error beyond which numbers mean little.
     constexpr double largest_told = 0.5;
 
+    // Below it other errors are larger.
+    constexpr double least_told = 1e-4;
+
     const std::string cure   = "Material/Volumetric locking cure = patches";
     const std::string forces = "the forces that move it";
 
@@ -39,6 +42,8 @@ namespace Supple
     {
       if (!(part <= largest_told))
         return "more than " + percent(largest_told) + " of " + whole;
+      if (part < least_told)
+        return "less than " + percent(least_told) + " of " + whole;
       return (at_least ? "more than " : "about ") + percent(part) + " of " + whole;
     }
   } // namespace

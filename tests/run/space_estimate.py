@@ -25,16 +25,19 @@ def closing_line(scene, settings):
 # In words.
 MOVED = {"Loads/Gravity": "0, 0, 0", "Motion/Of": "boundary 2", "Motion/Displacement": "0; free; 0.1*t"}
 SHORT = {"Time/Steps": 20, "Output/Report": "false"}
+THREE = r"error: in time more than \d+ % of the motion \(half and a quarter of the step, order \S+ where it should be 1\)"
 for scene, settings, pattern in [
         (runner.STATIC, {}, r"error: in space about \d\d % of n56\.uz \(mesh\)"),
         (runner.STATIC, {"Probes/Points": ""}, r"error: in space about \d\d % of the work of the loads \(mesh\)"),
         (runner.STATIC, MOVED, r"error: in space about \d\d % of the forces that move it \(mesh\)"),
         (runner.STATIC, {"Mesh/Box cubes": "1, 1, 1", "Probes/Points": "tip: 2, 0, 2"}, r"error: in space more than 50 % of tip\.uz \(mesh\)"),
         (runner.STATIC, {"Space/Estimate error": "never"}, ""),
-        (runner.BAR, SHORT, r"error: in space a swing too quick by \d\d % \(mesh\)"),
+        (runner.BAR, {**SHORT, "Time/Step": 0.0005}, r"error: in time about \d\S* % of the motion \(sum of local errors\), in space .*"),
+        (runner.BAR, {**SHORT, "Time/Method": "sdirk2"}, r"error: in space a swing too quick by \d\d % \(mesh\)"),
+        (runner.BAR, SHORT, r"error: in time perhaps more than 50 % of the motion \(sum of local errors\), in space a swing too quick by \d\d % \(mesh\)"),
         (runner.BAR, {**SHORT, "Time/Estimate error": "true"},
-         r"error: in time \d\S* % of the motion \(half the step\), in space a swing too quick by \d\d % \(mesh\)"),
-        (runner.BAR, {**SHORT, "Time/Estimate error": "true", "Space/Estimate error": "never"}, r"error: in time \d\S* % of the motion \(half the step\)")]:
+         THREE + r", in space a swing too quick by \d\d % \(mesh\)"),
+        (runner.BAR, {**SHORT, "Time/Estimate error": "true", "Space/Estimate error": "never"}, THREE)]:
     line = closing_line(scene, settings)
     runner.check(re.fullmatch(pattern, line), f"{settings}: {line}")
 for choice, words in [("end", "in space estimated at the end"), ("frames", "at each frame"), ("never", "in space not estimated")]:

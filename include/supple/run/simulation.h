@@ -96,9 +96,14 @@ namespace Supple
     check();
 
   private:
-    /** The second run, which tells the error of this one. */
+    /** The second run, which tells the error of this one; null if nobody asks for it. */
     std::unique_ptr<StepDoubling>
-    make_second_run() const;
+    make_second_run();
+
+    /** A run of another scene, that ends with a ComputationError if this one is to be interrupted.
+     */
+    StepDoubling::OtherRun
+    make_third_run(const Parameters &scene);
 
     /** What estimates the error in space of this run; null if nobody asks for it. */
     std::unique_ptr<SpaceEstimate>

@@ -80,6 +80,7 @@ namespace Supple
     double setup_seconds              = 0.;
     double run_seconds                = 0.;
     double error_estimate             = 0.;      ///< [m]
+    bool local_errors_add_up          = true;    ///< to about the error of the run
     double largest_motion             = 0.;      ///< of a vertex from its place at the start [m]
     const StepDoubling *step_doubling = nullptr; ///< if there is a second run
     std::optional<SpaceErrors> space_errors;     ///< if they were estimated
