@@ -30,6 +30,7 @@ SUBJECTS = {
     "Solver": "How the linear systems are solved.",
     "Output": "What is written, and when.",
     "Probes": "Which points, boundaries, regions and surfaces are followed over time.",
+    "Space": "The error that the mesh makes.",
     "Checkpoint": "To go on with a run that was ended.",
     "Study": "Many runs of one scene, compared. A file of its own, with this subsection alone.",
     "Identification": "Two layers of skin fitted to measured surfaces. A file of its own, with this subsection alone.",

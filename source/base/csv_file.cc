@@ -3,6 +3,7 @@
 #include <supple/base/error.h>
 #include <supple/base/files.h>
 
+#include <cmath>
 #include <sstream>
 
 namespace Supple
@@ -64,7 +65,11 @@ namespace Supple
     for (const std::vector<double> &row : rows)
       {
         for (std::size_t i = 0; i < row.size(); ++i)
-          text << (i == 0 ? "" : ",") << row[i];
+          {
+            text << (i == 0 ? "" : ",");
+            if (!std::isnan(row[i]))
+              text << row[i];
+          }
         text << '\n';
       }
     stream << text.str() << std::flush;

@@ -32,14 +32,11 @@ namespace Supple
     changes.resize(cells.n_cells);
     for (std::size_t b = 0; b < cells.n_batches(); ++b)
       {
-        Matrix3<Pack> H = rotations.empty() ? Matrix3<Pack>::identity() : rotations[b];
-        Pack h(3.);
-        if (measure == VolumeMeasure::determinant)
-          {
-            const Matrix3<Pack> F = cells.deformation_gradient(b, displacement);
-            H                     = cofactor(F);
-            h                     = 2. * determinant(F) + 1.;
-          }
+        const bool exact = measure == VolumeMeasure::determinant;
+        const Matrix3<Pack> F =
+          exact ? cells.deformation_gradient(b, displacement) : Matrix3<Pack>::identity();
+        const Matrix3<Pack> H            = volume_gradient(rotations, measure, b, F);
+        const Pack h                     = exact ? 2. * determinant(F) + 1. : Pack(3.);
         const Pack volume                = cells.batch(b).volume;
         const Pack constant              = volume * (trace(H) - h);
         const Cells::NodalPack gradients = cells.divergence(b, H);

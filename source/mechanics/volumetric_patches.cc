@@ -163,6 +163,41 @@ namespace Supple
   }
 
 
+  std::vector<VolumetricPatches::Growth>
+  VolumetricPatches::growth(const double *displacement) const
+  {
+    return growth(displacement, 1.);
+  }
+
+
+  std::vector<VolumetricPatches::Growth>
+  VolumetricPatches::growth_by_change(const double *change) const
+  {
+    return growth(change, 0.);
+  }
+
+
+  std::vector<VolumetricPatches::Growth>
+  VolumetricPatches::growth(const double *w, const double constant_part) const
+  {
+    reduce(change, w);
+    for (unsigned int p = 0; p < n_own(); ++p)
+      change.local_element(p) = (change.local_element(p) + constant_part * constant[p]) / volume[p];
+    const GhostValues of_patches(change);
+    std::vector<Growth> growth;
+    growth.reserve(changes.size());
+    for (std::size_t c = 0; c < changes.size(); ++c)
+      {
+        double sum = constant_part * changes[c].constant;
+        for (unsigned int a = 0; a < 4; ++a)
+          for (unsigned int i = 0; i < 3; ++i)
+            sum += changes[c].gradients[a][i] * w[3 * std::size_t(node[places[c][a]]) + i];
+        growth.push_back({sum / changes[c].volume, of_patches.data()[patch_of[c]]});
+      }
+    return growth;
+  }
+
+
   double
   VolumetricPatches::round_off_square() const
   {

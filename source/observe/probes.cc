@@ -158,6 +158,21 @@ namespace Supple
   }
 
 
+  std::vector<Probes::Component>
+  Probes::displacement_components() const
+  {
+    std::vector<Component> components;
+    for (const Probe &probe : probes)
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          components.push_back({probe.name + ".u" + "xyz" [i], {}, 1. / probe.n_nodes});
+          for (const unsigned int node : probe.nodes)
+            components.back().dofs.push_back(3 * node + i);
+        }
+    return components;
+  }
+
+
   std::vector<std::string>
   Probes::descriptions() const
   {

@@ -16,10 +16,6 @@ namespace Supple
 
   namespace
   {
-    const std::string magic     = "supple frames 1\n";
-    const std::size_t head_size = magic.size() + sizeof(std::uint64_t);
-
-
     /** Where each of these comes to stand when they are sorted. */
     template <class Key>
     std::vector<unsigned int>
@@ -48,9 +44,11 @@ namespace Supple
   } // namespace
 
 
-  Film::Film(const Body &body, const std::string &folder)
+  Film::Film(const Body &body, const std::string &folder, const bool with_errors)
     : body(body)
     , file(folder + "/" + file_name())
+    , n_fields(with_errors ? 3 : 2)
+    , magic("supple frames of " + std::to_string(n_fields) + " fields\n")
     , root(Utilities::MPI::this_mpi_process(body.mesh.communicator) == 0)
   {
     find_surface();
@@ -152,9 +150,16 @@ namespace Supple
 
 
   std::size_t
+  Film::head_size() const
+  {
+    return magic.size() + sizeof(std::uint64_t);
+  }
+
+
+  std::size_t
   Film::frame_size() const
   {
-    return 2 * sizeof(double) + (rest.size() + 2 * triangles.size()) * sizeof(float);
+    return 2 * sizeof(double) + (rest.size() + n_fields * triangles.size()) * sizeof(float);
   }
 
 
@@ -184,7 +189,7 @@ namespace Supple
     old.read(reinterpret_cast<char *>(&missing), sizeof(missing));
     if (!old || head != magic || missing > n_before)
       return; // the next frame begins a new file
-    const std::size_t size = head_size + (n_before - missing) * frame_size();
+    const std::size_t size = head_size() + (n_before - missing) * frame_size();
     std::error_code problem;
     if (std::filesystem::file_size(file, problem) < size || problem)
       return;
@@ -197,6 +202,27 @@ namespace Supple
   }
 
 
+  std::vector<float>
+  Film::gather_fields(const Drawing &drawing) const
+  {
+    const std::array<const std::vector<float> *, 3> fields = {
+      {&drawing.cells.volume_ratio, &drawing.cells.von_mises_stress, drawing.error_in_space}};
+    std::vector<float> all;
+    for (std::size_t f = 0; f < n_fields; ++f)
+      {
+        std::vector<float> here;
+        here.reserve(own_triangles.size());
+        for (const Triangle &triangle : own_triangles)
+          here.push_back(fields[f] ? (*fields[f])[triangle.cell_index] : 0.f);
+        here = gathered_on_first(here, body.mesh.communicator);
+        all.resize(all.size() + triangle_place.size());
+        for (std::size_t i = 0; i < triangle_place.size(); ++i)
+          all[f * triangle_place.size() + triangle_place[i]] = here[i];
+      }
+    return all;
+  }
+
+
   void
   Film::write(const Drawing &drawing)
   {
@@ -205,28 +231,15 @@ namespace Supple
     for (const unsigned int node : own_nodes)
       for (unsigned int d = 0; d < 3; ++d)
         nodal.push_back(drawing.displacement.local_element(3 * node + d));
-    std::vector<float> ratios, stresses;
-    ratios.reserve(own_triangles.size());
-    stresses.reserve(own_triangles.size());
-    for (const Triangle &triangle : own_triangles)
-      {
-        ratios.push_back(drawing.cells.volume_ratio[triangle.cell_index]);
-        stresses.push_back(drawing.cells.von_mises_stress[triangle.cell_index]);
-      }
-    nodal    = gathered_on_first(nodal, body.mesh.communicator);
-    ratios   = gathered_on_first(ratios, body.mesh.communicator);
-    stresses = gathered_on_first(stresses, body.mesh.communicator);
+    nodal                           = gathered_on_first(nodal, body.mesh.communicator);
+    const std::vector<float> fields = gather_fields(drawing);
     if (!root)
       return;
 
-    std::vector<float> values(rest.size() + 2 * triangles.size());
+    std::vector<float> values(rest.size());
     for (std::size_t i = 0; i < vertex_place.size(); ++i)
       std::copy_n(&nodal[3 * i], 3, &values[3 * vertex_place[i]]);
-    for (std::size_t i = 0; i < triangle_place.size(); ++i)
-      {
-        values[rest.size() + triangle_place[i]]                    = ratios[i];
-        values[rest.size() + triangles.size() + triangle_place[i]] = stresses[i];
-      }
+    values.insert(values.end(), fields.begin(), fields.end());
     if (!stream.is_open())
       open(true);
     const std::array<double, 2> when = {{drawing.time, double(drawing.step)}};
@@ -244,8 +257,8 @@ namespace Supple
   {
     FilmFrame frame;
     frame.displacement.resize(rest.size());
-    frame.cells.resize(2 * triangles.size());
-    stream.seekg(head_size + number * frame_size());
+    frame.cells.resize(n_fields * triangles.size());
+    stream.seekg(head_size() + number * frame_size());
     stream.read(reinterpret_cast<char *>(&frame.time), sizeof(double));
     stream.read(reinterpret_cast<char *>(&frame.step), sizeof(double));
     for (std::vector<float> *values : {&frame.displacement, &frame.cells})
@@ -271,11 +284,11 @@ namespace Supple
   Film::pack(const std::size_t limit) const
   {
     constexpr std::size_t largest_ratio = 4; // of plain bytes to packed ones
-    PackedFilm packed(rest, triangles, materials);
+    PackedFilm packed(rest, triangles, materials, n_fields);
     packed.n_written        = n_frames;
     const std::size_t begin = packed.bytes.size();
     const std::size_t room  = limit > begin ? limit - begin : 0;
-    const std::size_t size  = (rest.size() + 2 * triangles.size()) * sizeof(std::uint16_t);
+    const std::size_t size  = (rest.size() + n_fields * triangles.size()) * sizeof(std::uint16_t);
     for (std::size_t n_taken = std::min<std::size_t>(n_frames, largest_ratio * room / size);;)
       {
         n_taken = std::max<std::size_t>(n_taken, std::min(n_frames, 2u));

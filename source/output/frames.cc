@@ -18,17 +18,20 @@ namespace Supple
   Frames::Frames(const Configuration &configuration,
                  const ElasticForce &elastic,
                  const OutputParameters &parameters,
-                 const std::string &folder)
+                 const std::string &folder,
+                 const CellErrors *const errors,
+                 const bool of_all_frames)
     : configuration(configuration)
     , elastic(elastic)
     , body(configuration.body)
     , parameters(parameters)
     , folder(folder)
+    , errors(errors)
     , vtu(*body.mesh.parts)
   {
     body.initialize(last_displacement);
     if (parameters.report)
-      film = std::make_unique<Film>(body, folder);
+      film = std::make_unique<Film>(body, folder, of_all_frames);
   }
 
 
@@ -184,12 +187,14 @@ namespace Supple
   void
   Frames::draw_state(const Measurement &now, const std::string &name)
   {
-    const State &state = configuration.state;
+    const State &state      = configuration.state;
+    const bool errors_known = errors && errors->step == now.step && !errors->of_cells.empty();
     const Drawing drawing{now.time,
                           now.step,
                           state.displacement,
                           state.has_velocity() ? &state.velocity : nullptr,
-                          fields(now.step)};
+                          fields(now.step),
+                          errors_known ? &errors->of_cells : nullptr};
     write_pieces(drawing, name);
     if (film)
       film->write(drawing);

@@ -70,9 +70,11 @@ namespace Supple
 
   PackedFilm::PackedFilm(const std::vector<float> &rest,
                          const std::vector<std::array<unsigned int, 3>> &triangles,
-                         const std::vector<unsigned int> &materials_of_triangles)
+                         const std::vector<unsigned int> &materials_of_triangles,
+                         const std::size_t n_fields)
     : n_vertices(rest.size() / 3)
     , n_triangles(triangles.size())
+    , ranges(n_fields)
   {
     const std::set<unsigned int> different(materials_of_triangles.begin(),
                                            materials_of_triangles.end());
@@ -106,9 +108,12 @@ namespace Supple
                           u + 3 * n_vertices,
                           {{-largest_displacement, largest_displacement}},
                           {{-32767, 32767}});
-        append_in_16_bits(values, cells, cells + n_triangles, volume_ratio, {{0, 65535}});
-        append_in_16_bits(
-          values, cells + n_triangles, cells + 2 * n_triangles, von_mises, {{0, 65535}});
+        for (std::size_t f = 0; f < ranges.size(); ++f)
+          append_in_16_bits(values,
+                            cells + f * n_triangles,
+                            cells + (f + 1) * n_triangles,
+                            ranges[f],
+                            {{0, 65535}});
         append_differences(plain, values, before);
         before = std::move(values);
       }
@@ -124,15 +129,17 @@ namespace Supple
     times.clear();
     steps.clear();
     largest_displacement = 0.;
-    volume_ratio =
-      von_mises = {{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()}};
+    std::fill(ranges.begin(),
+              ranges.end(),
+              std::array<double, 2>{
+                {std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()}});
     for (const FilmFrame &frame : frames)
       {
         times.push_back(frame.time);
         steps.push_back(frame.step);
         const float *const cells = frame.cells.data();
-        widen(volume_ratio, cells, cells + n_triangles);
-        widen(von_mises, cells + n_triangles, cells + 2 * n_triangles);
+        for (std::size_t f = 0; f < ranges.size(); ++f)
+          widen(ranges[f], cells + f * n_triangles, cells + (f + 1) * n_triangles);
         for (const float u : frame.displacement)
           largest_displacement = std::max<double>(largest_displacement, std::abs(u));
       }
@@ -142,14 +149,17 @@ namespace Supple
   nlohmann::ordered_json
   PackedFilm::description() const
   {
-    return {{"vertices", n_vertices},
-            {"triangles", n_triangles},
-            {"frames_written", n_written},
-            {"times", times},
-            {"steps", steps},
-            {"largest_displacement", largest_displacement},
-            {"volume_ratio", volume_ratio},
-            {"von_mises_stress", von_mises},
-            {"materials", materials}};
+    const std::array<const char *, 3> names = {
+      {"volume_ratio", "von_mises_stress", "error_in_space"}};
+    nlohmann::ordered_json json = {{"vertices", n_vertices},
+                                   {"triangles", n_triangles},
+                                   {"frames_written", n_written},
+                                   {"times", times},
+                                   {"steps", steps},
+                                   {"largest_displacement", largest_displacement}};
+    for (std::size_t f = 0; f < ranges.size(); ++f)
+      json[names[f]] = ranges[f];
+    json["materials"] = materials;
+    return json;
   }
 } // namespace Supple

@@ -84,11 +84,16 @@ namespace Supple
       }
     std::vector<std::vector<float>> fields;
     const auto named = drawing.cells.named();
-    fields.reserve(named.size());
+    fields.reserve(named.size() + 1);
     for (const auto &[name, values] : named)
       {
         fields.push_back(of_cells(*values));
         now.of_cells.push_back({name, 1, &fields.back()});
+      }
+    if (drawing.error_in_space)
+      {
+        fields.push_back(of_cells(*drawing.error_in_space));
+        now.of_cells.push_back({"error_in_space", 1, &fields.back()});
       }
     return {piece.file(now), piece.record(now, names)};
   }

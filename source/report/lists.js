@@ -13,12 +13,25 @@ function entries(title, pairs) {
 const words = (name) => name.replaceAll('_', ' ');
 const percent = (part) => `${digits(100 * part, 3)} %`;
 
-function errorEntries(error) {
-  if (!error) return [];
+function spaceEntries(space) {
+  if (!space) return [];
+  const {unknown, more_than: least, energy, work, frequency} = space;
+  const probes = Object.entries(space.probes ?? {}).map(([name, error]) => [`in space, of ${name}`, error === null ? 'more than 50 %' : percent(Math.abs(error))]);
+  return [...probes, ['in space, of the energy', unknown ? `unknown, for ${unknown}` : least ? `more than ${percent(least)}` : `${percent(work)} (${percent(energy)} in the energy norm)`],
+    ['in space, of a swing', frequency === undefined ? null : `too quick by ${percent(frequency)}`],
+    ['jumps over recovery', space.lock_ratio === undefined ? null : digits(space.lock_ratio, 3)]];
+}
+
+function timeEntries(error) {
+  if (error.largest_motion === undefined) return [];
   const second = error.step_doubling;
   return [['largest motion', quantity(error.largest_motion, 'm')],
     ['sum of local errors', error.sum_of_local_errors === null ? 'unknown for this method' : `${quantity(error.sum_of_local_errors, 'm', 3)} (${percent(error.relative)} of the motion)`],
-    ['by a second run', !second ? null : second.failed ? `unknown: ${second.failed}` : `${quantity(second.largest, 'm', 3)} (${percent(second.relative)})`]];
+    ['by a second run', !second ? null : second.failed ? `unknown: ${second.failed}` : `${second.at_least ? 'more than ' : ''}${quantity(second.largest, 'm', 3)} (${percent(second.relative)}${second.order === undefined ? '' : `, order ${digits(second.order, 2)}`})`]];
+}
+
+function errorEntries(error) {
+  return error ? [...timeEntries(error), ...spaceEntries(error.space)] : [];
 }
 
 /** Where the time went. */

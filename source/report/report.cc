@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -51,7 +52,8 @@ namespace Supple
           for (std::vector<double> &column : table.columns)
             {
               char *end;
-              column.push_back(std::strtod(at, &end));
+              const double value = std::strtod(at, &end);
+              column.push_back(end == at ? std::numeric_limits<double>::quiet_NaN() : value);
               at = *end == ',' ? end + 1 : end;
             }
         }

@@ -87,6 +87,7 @@ class Charts {
     const dt = columns.dt.map((value, row) => (row === 0 && value === 0 ? columns.dt[1] ?? null : value));
     if (varies(dt)) this.add(this.data.static ? 'Load step' : 'Step size', this.data.static ? '' : 's', [['step', dt]], table);
     else if (dt.length > 1) this.root.append(element('p', {class: 'note'}, `Every ${this.data.static ? 'load step' : 'step'} is ${this.data.static ? digits(dt[1]) : quantity(dt[1], 's')}.`));
+    if (columns.space_error) this.add('Error in space, of the elastic energy', '', some(['space_error']), table);
     this.addMore(table, some);
   }
 

@@ -61,7 +61,7 @@ export class Stage {
   }
 
   makeControls() {
-    const fields = Object.keys(FIELDS).filter((field) => field !== 'material' || this.surface.materials.length > 1);
+    const fields = Object.keys(FIELDS).filter((field) => (field === 'material' ? this.surface.materials.length > 1 : this.surface.range[field]));
     const factors = [...new Set([1, 2, 5, 10, 20, 50, 100, this.enlarged])].sort((a, b) => a - b);
     this.wireButton = toggle('Mesh', 'Edges of the cells (w)', true, (wires) => this.set({wires}));
     this.ghostButton = toggle('Undeformed', 'The body at rest (g)', true, (ghost) => this.set({ghost}));

@@ -20,16 +20,20 @@ async function unpack(stream, length) {
   return values;
 }
 
+/** Fields of the triangles, in the order in which a frame has them; the last one is not in all pages. */
+const FIELDS = ['volume_ratio', 'von_mises_stress', 'error_in_space'];
+
 export class Surface {
   /** @throws where the browser can't unpack the frames */
   static async read(description, text) {
     const buffer = decode(text);
     const {vertices, triangles} = description;
     const begin = 12 * vertices + 12 * triangles + 4 * Math.ceil(triangles / 2);
-    return new Surface(description, buffer, await unpack(buffer.slice(begin), 3 * vertices + 2 * triangles));
+    const fields = FIELDS.filter((field) => description[field]);
+    return new Surface(description, fields, buffer, await unpack(buffer.slice(begin), 3 * vertices + fields.length * triangles));
   }
 
-  constructor(description, buffer, values) {
+  constructor(description, fields, buffer, values) {
     Object.assign(this, description);
     const {vertices, triangles} = description;
     this.rest = new Float32Array(buffer, 0, 3 * vertices);
@@ -37,14 +41,14 @@ export class Surface {
     const places = new Uint16Array(buffer, 12 * (vertices + triangles), 2 * Math.ceil(triangles / 2));
     this.materialIds = Uint32Array.from(places, (place) => this.materials[place]);
     this.frames = this.times.map((_, number) => {
-      const at = number * (3 * vertices + 2 * triangles);
-      return {
-        displacement: new Int16Array(values.buffer, 2 * at, 3 * vertices),
-        volume_ratio: values.subarray(at + 3 * vertices, at + 3 * vertices + triangles),
-        von_mises_stress: values.subarray(at + 3 * vertices + triangles, at + 3 * vertices + 2 * triangles),
-      };
+      const at = number * (3 * vertices + fields.length * triangles);
+      const frame = {displacement: new Int16Array(values.buffer, 2 * at, 3 * vertices)};
+      fields.forEach((field, i) => {
+        frame[field] = values.subarray(at + 3 * vertices + i * triangles, at + 3 * vertices + (i + 1) * triangles);
+      });
+      return frame;
     });
-    this.range = {volume_ratio: this.volume_ratio, von_mises_stress: this.von_mises_stress};
+    this.range = Object.fromEntries(fields.map((field) => [field, description[field]]));
     this.flat = this.rest.every((value, i) => i % 3 !== 2 || value === 0);
     this.measure();
   }

@@ -115,6 +115,27 @@ namespace Supple
   }
 
 
+  std::string
+  Description::errors_in_words() const
+  {
+    using Estimate = SpaceParameters::Estimate;
+    std::string text;
+    if (problem.parameters.time.estimate_error)
+      text = "in time by a second run, ";
+    else if (!problem.stationary)
+      text = "in time estimated step by step (Time/Estimate error), ";
+    switch (problem.parameters.space.estimate)
+      {
+        case Estimate::end:
+          return text + "in space estimated at the end";
+        case Estimate::frames:
+          return text + "in space estimated at each frame and at the end";
+        default:
+          return text + "in space not estimated (Space/Estimate error)";
+      }
+  }
+
+
   void
   Description::print(const bool in_detail) const
   {
@@ -146,6 +167,8 @@ namespace Supple
       line("solver", problem.solver->name() + " (" + problem.solver->reason + ")");
     for (const std::string &text : probes.descriptions())
       line("probe", text);
+    if (in_detail)
+      line("error", errors_in_words());
     if (course.resumed())
       line("resumed", "goes on from " + course.origin);
     for (const std::string &text : warnings())
@@ -282,6 +305,58 @@ namespace Supple
   }
 
 
+  namespace
+  {
+    /** "", "about ", "more than " */
+    std::string
+    how_sure(const StepDoubling &second)
+    {
+      if (second.observed())
+        return second.observed()->at_least ? "more than " : "about ";
+      return second.third_failure.empty() ? "" : "more than ";
+    }
+
+
+    /** ", order 0.9", ", order 0.2 where it should be 1" */
+    std::string
+    order_of(const StepDoubling &second)
+    {
+      if (!second.observed() || !second.observed()->order)
+        return "";
+      return ", order " + digits(*second.observed()->order, 2) +
+             (second.observed()->at_least ? " where it should be " + std::to_string(second.order)
+                                          : "");
+    }
+
+
+    /** By the second run, or else by the local errors; empty if nothing is known, or moves. */
+    std::string
+    error_in_time(const Summary &summary)
+    {
+      const StepDoubling *const second = summary.step_doubling;
+      if (second && !second->failure.empty())
+        return "in time unknown, for the second run failed: " + second->failure;
+      if (!summary.has_mass || summary.largest_motion == 0.)
+        return "";
+      const auto of_motion = [&](const double error) {
+        const double percent = 100. * error / summary.largest_motion;
+        return (percent < 99.5 ? digits(percent, 2) : std::to_string(std::lround(percent))) +
+               " % of the motion (";
+      };
+      if (second)
+        return "in time " + how_sure(*second) + of_motion(second->best()) + second->name() +
+               order_of(*second) + ")";
+      if (!summary.local_errors_add_up || !std::isfinite(summary.error_estimate))
+        return "";
+      const bool large = summary.error_estimate > 0.5 * summary.largest_motion;
+      return "in time " +
+             (large ? "perhaps more than " + of_motion(0.5 * summary.largest_motion)
+                    : "about " + of_motion(summary.error_estimate)) +
+             "sum of local errors)";
+    }
+  } // namespace
+
+
   void
   print_result(const Summary &summary,
                const std::string &folder,
@@ -303,15 +378,10 @@ namespace Supple
         line("warning", text);
     if (!report.empty())
       line("report", report);
-    const StepDoubling *const second = summary.step_doubling;
-    if (!second)
-      return;
-    if (second->failure.empty() && summary.largest_motion > 0.)
-      std::cout << "error: " << second->largest << " m ("
-                << 100. * second->largest / summary.largest_motion << " % of the motion), "
-                << second->last << " m at the end, by a second run with " << second->name << " in "
-                << readable_duration(second->seconds) << std::endl;
-    else if (!second->failure.empty())
-      std::cout << "error: unknown, for the second run failed: " << second->failure << std::endl;
+    std::string errors = error_in_time(summary);
+    if (summary.space_errors)
+      errors += (errors.empty() ? "" : ", ") + summary.space_errors->in_words();
+    if (!errors.empty())
+      std::cout << "error: " << errors << std::endl;
   }
 } // namespace Supple

@@ -41,19 +41,50 @@ namespace Supple
 
 
   std::unique_ptr<StepDoubling>
-  Simulation::make_second_run() const
+  Simulation::make_second_run()
   {
     if (!problem.parameters.time.estimate_error)
       return nullptr;
-    const auto second = std::make_shared<Simulation>(StepDoubling::second_scene(problem.parameters),
-                                                     "",
-                                                     true,
-                                                     problem.mesh.communicator);
-    return std::make_unique<StepDoubling>(problem.parameters.time, [second](const double time) {
+    const Parameters scene = StepDoubling::second_scene(problem.parameters);
+    const auto second = std::make_shared<Simulation>(scene, "", true, problem.mesh.communicator);
+    const auto second_run = [second](const double time) {
       while (second->time() < time * (1. - 1e-12) && !second->finished())
         second->advance();
       return StepDoubling::Arrival{second->time(), second->current_state().displacement};
+    };
+    return std::make_unique<StepDoubling>(problem.parameters.time, second_run, [this, scene] {
+      return make_third_run(StepDoubling::second_scene(scene));
     });
+  }
+
+
+  StepDoubling::OtherRun
+  Simulation::make_third_run(const Parameters &scene)
+  {
+    const auto third = std::make_shared<Simulation>(scene, "", true, problem.mesh.communicator);
+    return [this, third](const double time) {
+      while (third->time() < time * (1. - 1e-12) && !third->finished())
+        {
+          third->advance();
+          if (!interruption.after_step(observation()))
+            throw ComputationError("it was interrupted");
+        }
+      return StepDoubling::Arrival{third->time(), third->current_state().displacement};
+    };
+  }
+
+
+  std::unique_ptr<SpaceEstimate>
+  Simulation::make_space_estimate()
+  {
+    if (!observed || problem.parameters.space.estimate == SpaceParameters::Estimate::never)
+      return nullptr;
+    return std::make_unique<SpaceEstimate>(problem,
+                                           *integrator,
+                                           probes,
+                                           [this](const Measurement &now) {
+                                             return frames && frames->written().due(now);
+                                           });
   }
 
 
@@ -75,16 +106,23 @@ namespace Supple
     observed                     = history || results.writes_frames || guest;
     probed                       = !probes.empty() && (history || guest);
     Diagnostics *const asked     = observed ? &diagnostics : nullptr;
+    space                        = make_space_estimate();
 
+    const bool of_frames = space && parameters.space.estimate == SpaceParameters::Estimate::frames;
+    const SpaceEstimate *const space_of_frames = of_frames ? space.get() : nullptr;
+
+    listeners.add(space.get());
     listeners.add(results.add<ProfileTables>(
       history && !profiles.empty(), effort, profiles, parameters.probes.profile_every));
-    listeners.add(results.add<HistoryTable>(history, effort));
+    listeners.add(results.add<HistoryTable>(history, effort, space_of_frames));
     listeners.add(results.add<ProbeTable>(history && !probes.empty(), effort, probes));
     listeners.add(frames = results.add<FrameWriter>(results.writes_frames,
                                                     effort,
                                                     problem.configuration,
                                                     problem.forces.elastic(),
-                                                    parameters.output));
+                                                    parameters.output,
+                                                    space ? &space->of_cells() : nullptr,
+                                                    of_frames));
     listeners.add(&pulses);
     listeners.add(guest);
     listeners.add(second_run.get());
@@ -195,13 +233,20 @@ namespace Supple
   Simulation::observe(const unsigned int after_step, const StepReport &report)
   {
     const PhaseTimer timer(problem.effort, Phase::diagnostics);
-    const double seconds    = course.seconds() - (second_run ? second_run->seconds : 0.);
-    const Measurement next  = diagnostics.measure(after_step, report.time, seconds, report);
+    const Measurement next  = diagnostics.measure(after_step, report.time, own_seconds(), report);
     probes_now              = probe_values(next);
     const std::string wrong = objection(next);
     if (!wrong.empty())
       refuse(wrong, next);
     course.now = next;
+  }
+
+
+  double
+  Simulation::own_seconds() const
+  {
+    return course.seconds() - (second_run ? second_run->seconds : 0.) -
+           (space ? space->seconds : 0.);
   }
 
 
@@ -292,7 +337,7 @@ namespace Supple
   Summary
   Simulation::summarize(const std::string &status)
   {
-    const double seconds = course.seconds() - (second_run ? second_run->seconds : 0.);
+    const double seconds = own_seconds();
     Summary summary(problem.parameters, problem.model());
     summary.status         = status;
     summary.warnings       = description().warnings();
@@ -302,14 +347,22 @@ namespace Supple
     summary.setup_seconds  = course.setup_seconds;
     summary.run_seconds    = seconds;
     summary.error_estimate = course.error_estimate;
-    summary.largest_motion = course.largest_motion;
-    summary.step_doubling  = second_run.get();
-    summary.frames         = frames ? frames->written().n_written() : 0;
-    summary.history        = results.writes_history;
-    summary.probes         = results.writes_history && !probes.empty();
-    summary.observed       = observed;
-    summary.last           = course.now;
-    summary.extremes       = diagnostics.extremes();
+    // Formulas of first order are embedded in these: their errors say nothing of the run's.
+    const TimeMethod method     = problem.parameters.time.method;
+    summary.local_errors_add_up = method != TimeMethod::sdirk2 && method != TimeMethod::explicit2;
+    summary.largest_motion      = course.largest_motion;
+    summary.step_doubling       = second_run.get();
+    if (space)
+      summary.space_errors = space->at_the_end();
+    if (summary.space_errors)
+      for (const std::string &text : summary.space_errors->warnings())
+        summary.warnings.push_back(text);
+    summary.frames   = frames ? frames->written().n_written() : 0;
+    summary.history  = results.writes_history;
+    summary.probes   = results.writes_history && !probes.empty();
+    summary.observed = observed;
+    summary.last     = course.now;
+    summary.extremes = diagnostics.extremes();
     return summary;
   }
 } // namespace Supple

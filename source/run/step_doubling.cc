@@ -2,21 +2,39 @@
 
 #include <supple/base/error.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 namespace Supple
 {
   namespace
   {
-    /** The error over the distance from the second run. With variable steps the tolerance is that
-     * of a step, whose length goes with its (p+1)-st root, and the error with its p-th power. */
+    /** From this part of the motion on a second run alone is not believed. */
+    constexpr double large = 0.1;
+
+    /** An observed order below this part of that of the method says that the steps are too long for
+     * any. */
+    constexpr double believable = 0.7;
+
+    using Clock = std::chrono::steady_clock;
+
+
     double
-    factor_of(const TimeParameters &time)
+    seconds_since(const Clock::time_point start)
     {
-      const double p    = time.order();
-      const double gain = time.has_variable_steps() ? std::pow(10., p / (p + 1.)) : std::pow(2., p);
-      return gain / (gain - 1.);
+      return std::chrono::duration<double>(Clock::now() - start).count();
+    }
+
+
+    /** With variable steps the tolerance is that of a step, whose length goes with its (p+1)-st
+     * root, and the error with its p-th power. */
+    double
+    gain_of(const TimeParameters &time)
+    {
+      const double p = time.order();
+      return time.has_variable_steps() ? std::pow(10., p / (p + 1.)) : std::pow(2., p);
     }
   } // namespace
 
@@ -42,24 +60,41 @@ namespace Supple
   }
 
 
-  StepDoubling::StepDoubling(const TimeParameters &time, const SecondRun &second_run)
-    : name(time.has_variable_steps() ? "a tenth of the tolerances" : "half the step")
-    , factor(factor_of(time))
+  StepDoubling::StepDoubling(const TimeParameters &time,
+                             const OtherRun &second_run,
+                             const std::function<OtherRun()> &make_third_run)
+    : order(time.order())
+    , variable_steps(time.has_variable_steps())
+    , gain(gain_of(time))
     , second_run(second_run)
+    , make_third_run(make_third_run)
   {
   }
 
 
-  void
-  StepDoubling::begin(const Observation & /* now */, const bool /* resumed */)
+  std::string
+  StepDoubling::name() const
   {
+    if (variable_steps)
+      return of_three ? "a tenth and a hundredth of the tolerances" : "a tenth of the tolerances";
+    return of_three ? "half and a quarter of the step" : "half the step";
+  }
+
+
+  void
+  StepDoubling::begin(const Observation &now, const bool /* resumed */)
+  {
+    start = now.state.displacement;
   }
 
 
   bool
   StepDoubling::after_step(const Observation &now)
   {
+    motion    = std::max(motion, largest_vertex_distance(now.state.displacement, start));
     error_now = follow(now.measurement.time, now.state.displacement);
+    if (now.last && compared && failure.empty() && largest > large * motion)
+      add_third_run();
     return true;
   }
 
@@ -77,7 +112,7 @@ namespace Supple
   {
     if (!failure.empty())
       return {};
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point began = Clock::now();
     std::optional<Arrival> second;
     try
       {
@@ -87,18 +122,65 @@ namespace Supple
       {
         failure = error.what();
       }
-    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    seconds += seconds_since(began);
     if (!second || std::abs(second->time - time) > 1e-9 * time)
       return {};
 
-    last = factor * largest_vertex_distance(displacement, second->displacement);
+    last = gain / (gain - 1.) * largest_vertex_distance(displacement, second->displacement);
     if (!std::isfinite(last))
       {
         failure = "its motion is too large to be compared";
         return {};
       }
+    if (!compared || last > largest)
+      {
+        largest           = last;
+        time_of_largest   = time;
+        first_at_largest  = displacement;
+        second_at_largest = second->displacement;
+      }
     compared = true;
-    largest  = std::max(largest, last);
     return last;
+  }
+
+
+  void
+  StepDoubling::add_third_run()
+  {
+    const Clock::time_point began = Clock::now();
+    try
+      {
+        const OtherRun third_run = make_third_run();
+        const Arrival third      = third_run(time_of_largest);
+        if (std::abs(third.time - time_of_largest) <= 1e-9 * time_of_largest)
+          of_three = observe(largest_vertex_distance(first_at_largest, second_at_largest),
+                             largest_vertex_distance(second_at_largest, third.displacement),
+                             largest_vertex_distance(first_at_largest, third.displacement));
+        else
+          third_failure = "it has no time in common with the others";
+      }
+    catch (const ComputationError &error)
+      {
+        third_failure = error.what();
+      }
+    seconds += seconds_since(began);
+  }
+
+
+  StepDoubling::Observed
+  StepDoubling::observe(const double first_to_second,
+                        const double second_to_third,
+                        const double first_to_third) const
+  {
+    Observed result;
+    result.gain     = first_to_second / second_to_third;
+    result.at_least = !(std::log(result.gain) >= believable * std::log(gain));
+    if (!variable_steps && std::isfinite(result.gain) && result.gain > 0.)
+      result.order = std::log2(result.gain);
+    const double trusted = std::min(result.gain, gain); // a faster fall is luck
+    result.error         = result.at_least
+                             ? std::max(first_to_third, first_to_second) + second_to_third / (gain - 1.)
+                             : trusted / (trusted - 1.) * first_to_second;
+    return result;
   }
 } // namespace Supple

@@ -133,13 +133,23 @@ namespace Supple
       if (const StepDoubling *const doubling = summary.step_doubling)
         {
           Json &second = json["step_doubling"];
-          second       = {{"second_run", doubling->name}, {"seconds", doubling->seconds}};
+          second       = {{"second_run", doubling->name()}, {"seconds", doubling->seconds}};
           if (doubling->failure.empty())
-            second.update({{"largest", doubling->largest},
+            second.update({{"largest", doubling->best()},
                            {"at_the_end", doubling->last},
-                           {"relative", relative(doubling->largest)}});
+                           {"relative", relative(doubling->best())},
+                           {"order_of_method", doubling->order}});
           else
             second["failed"] = doubling->failure;
+          if (doubling->observed())
+            {
+              second["by_second_run"] = doubling->largest;
+              second["at_least"]      = doubling->observed()->at_least;
+              if (doubling->observed()->order)
+                second["order"] = *doubling->observed()->order;
+            }
+          if (!doubling->third_failure.empty())
+            second["third_failed"] = doubling->third_failure;
         }
       return json;
     }
@@ -249,6 +259,8 @@ namespace Supple
       add_spread(json, *spread);
     if (has_mass)
       json["error_estimate"] = errors(*this);
+    if (space_errors)
+      json["error_estimate"]["space"] = space_errors->to_json();
     if (observed)
       {
         json["last"]     = energies(last);

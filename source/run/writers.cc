@@ -37,8 +37,24 @@ namespace Supple
   }
 
 
-  HistoryTable::HistoryTable(const std::string &folder, Effort &effort)
-    : StateTable(folder, effort, files()[0], Measurement::column_names())
+  namespace
+  {
+    std::vector<std::string>
+    history_columns(const bool with_space_error)
+    {
+      std::vector<std::string> names = Measurement::column_names();
+      if (with_space_error)
+        names.push_back("space_error");
+      return names;
+    }
+  } // namespace
+
+
+  HistoryTable::HistoryTable(const std::string &folder,
+                             Effort &effort,
+                             const SpaceEstimate *const space)
+    : StateTable(folder, effort, files()[0], history_columns(space != nullptr))
+    , space(space)
   {
   }
 
@@ -53,7 +69,10 @@ namespace Supple
   std::vector<double>
   HistoryTable::row(const Observation &now) const
   {
-    return now.measurement.row();
+    std::vector<double> row = now.measurement.row();
+    if (space)
+      row.push_back(space->of_work_after(now.measurement.step));
+    return row;
   }
 
 
@@ -175,9 +194,11 @@ namespace Supple
                            Effort &effort,
                            const Configuration &configuration,
                            const ElasticForce &elastic,
-                           const OutputParameters &parameters)
+                           const OutputParameters &parameters,
+                           const CellErrors *const errors,
+                           const bool of_all_frames)
     : Writer(folder, effort)
-    , frames(configuration, elastic, parameters, folder)
+    , frames(configuration, elastic, parameters, folder, errors, of_all_frames)
   {
   }
 

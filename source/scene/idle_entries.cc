@@ -107,7 +107,9 @@ namespace Supple
 
 
     std::vector<Rule>
-    rules_of_output(const OutputParameters &output, const ProbeParameters &probes)
+    rules_of_output(const OutputParameters &output,
+                    const SpaceParameters &space,
+                    const ProbeParameters &probes)
     {
       using Frames = OutputParameters::Frames;
       // Without frames all entries about them are silent on purpose.
@@ -120,6 +122,9 @@ namespace Supple
         {frames && output.frames != Frames::adaptive,
          "Output/Frames is not adaptive.",
          {"Output/Motion", "Output/Volume ratio change", "Output/Longest interval"}},
+        {!frames && space.estimate == SpaceParameters::Estimate::frames,
+         "Output/Frames is none: the error in space is told at the end alone.",
+         {"Space/Estimate error"}},
         {probes.profiles.empty(),
          "Probes/Profiles names none.",
          {"Probes/Profile every", "Probes/Profile center"}},
@@ -139,7 +144,7 @@ namespace Supple
                                rules_of_loads(scene.loads, scene.start),
                                rules_of_material(scene),
                                rules_of_time(scene.time),
-                               rules_of_output(scene.output, scene.probes)})
+                               rules_of_output(scene.output, scene.space, scene.probes)})
         rules.insert(rules.end(), more.begin(), more.end());
       return rules;
     }

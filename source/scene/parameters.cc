@@ -19,6 +19,7 @@ namespace Supple
     solver.declare(prm);
     output.declare(prm);
     probes.declare(prm);
+    space.declare(prm);
     checkpoint.declare(prm);
   }
 

@@ -174,12 +174,64 @@ namespace Supple
     const int status               = settings.is_explicit()
                                        ? ARKStepSetTables(memory, order, table->p, nullptr, table)
                                        : ARKStepSetTables(memory, order, table->p, table, nullptr);
+    set_embedded_formula(*table);
     if (settings.is_explicit())
       stable = find_stable_step(model.implicit_operator, table, end);
     ARKodeButcherTable_Free(table);
     if (status != 0)
       throw_what_failed();
     check_stability();
+  }
+
+
+  void
+  ArkodeIntegrator::set_embedded_formula(const ARKodeButcherTableMem &table)
+  {
+    if (adaptive || !table.d)
+      return;
+    for (int i = 0; i < table.stages; ++i)
+      error_weights.push_back(table.b[i] - table.d[i]);
+    first_stage_is_start = table.A[0][0] == 0.;
+    ARKStepSetPostprocessStageFn(memory, [](sunrealtype, N_Vector y, void *self) {
+      static_cast<ArkodeIntegrator *>(self)->add_stage(Sundials::data(y));
+      return 0;
+    });
+  }
+
+
+  void
+  ArkodeIntegrator::begin_error()
+  {
+    stage = 0;
+    std::fill_n(error.data(), equation.n_unknowns(), 0.);
+    if (!error_weights.empty() && first_stage_is_start &&
+        !Compatibility::tells_of_explicit_first_stage)
+      add_stage(unknowns.data());
+  }
+
+
+  /** The displacement by the formula less that by the embedded one is h sum (b_i - d_i) v_i: of
+   * displacements no forces are needed. ARKode itself estimates errors of variable steps alone. */
+  void
+  ArkodeIntegrator::add_stage(const double *const y)
+  {
+    if (stage == error_weights.size()) // a step of the past is repeated
+      begin_error();
+    const unsigned int n = equation.n_unknowns() / 2;
+    const double weight  = set_size * error_weights[stage++];
+    for (unsigned int i = 0; i < n; ++i)
+      error.data()[i] += weight * y[n + i];
+  }
+
+
+  double
+  ArkodeIntegrator::embedded_error()
+  {
+    if (error_weights.empty())
+      return std::numeric_limits<double>::quiet_NaN();
+    for (const unsigned int dof : model.constraints.owned())
+      error.data()[dof] = 0.;
+    return largest_displacement(error.data());
   }
 
 
@@ -356,6 +408,7 @@ namespace Supple
     ode_start = ode_time;
     if (remembers && !adaptive) // of fixed steps one is as good as all, and nothing is decided
       past = {ode_start, set_size, end, 0};
+    begin_error();
     // a time that one step does not reach: ARKode would interpolate
     const int status = ARKStepEvolve(memory, 2. * end, unknowns, &ode_time, ARK_ONE_STEP);
     if (status < 0)
@@ -540,7 +593,7 @@ namespace Supple
     last_size = size;
 
     StepReport report;
-    report.local_error = std::numeric_limits<double>::quiet_NaN();
+    report.local_error = embedded_error();
     report.time        = step_end;
     if (report.time == (grid + 1) * settings.step)
       ++grid;

@@ -261,9 +261,9 @@ namespace Supple
       "Estimate error",
       estimate_error,
       {{"true", true}, {"false", false}},
-      "Whether a second run with half the step, or a tenth of the tolerances, moves along: "
-      "from how far the two are apart follows the error. It takes two to three times the "
-      "time of the run itself.");
+      "Whether a second run with half the step, or a tenth of the tolerances, moves along: how far "
+      "the two are apart tells the error. It takes two to three times the time of the run; errors "
+      "above a tenth of the motion a third run, and four times more (doc/error.md).");
     prm.leave_subsection();
   }
 } // namespace Supple

@@ -37,7 +37,7 @@ class Page:
         n, m = surface["vertices"], surface["triangles"]
         self.rest = self.triples(struct.unpack_from(f"<{3 * n}f", packed))
         self.triangles = self.triples(struct.unpack_from(f"<{3 * m}I", packed, 12 * n))
-        length = 3 * n + 2 * m
+        length = 3 * n + (3 if "error_in_space" in surface else 2) * m
         begin = 12 * n + 12 * m + 4 * ((m + 1) // 2)
         unpacked = zlib.decompress(packed[begin:])
         runner.check(len(unpacked) == 2 * length * len(surface["times"]), f"{len(unpacked)} bytes of frames")
@@ -99,6 +99,14 @@ runner.check(two.rest == page.rest and two.triangles == page.triangles, "two pro
 for (u, _), (v, _) in zip(page.frames, two.frames):
     worst = max(abs(a - b) for p, q in zip(u, v) for a, b in zip(p, q))
     runner.check(worst < 2.01 * unit, f"two processes: {worst} m")
+
+# The errors in space of the frames, where they are asked for: none at the start, which has no strain.
+erring = Page(runner.simulate(runner.BAR, {**PUSHED, "Space/Estimate error": "frames"}))
+runner.check([u for u, _ in erring.frames] == [u for u, _ in page.frames], "with errors in space: another motion")
+low, high = erring.data["surface"]["error_in_space"]
+runner.check(low == 0 and 1 < high < 10 and "error_in_space" not in surface, f"errors in space of {low} to {high}")
+told = [when for when, error in zip(*(erring.data["tables"]["history"]["columns"][name] for name in ("time", "space_error"))) if error is not None]
+runner.check(told == erring.data["surface"]["times"][1:], f"errors in space at {told}")
 
 # Long histories are thinned, but not their extremes.
 long = runner.simulate(runner.BAR, {"Time/Steps": 5000, "Time/Step": 0.0014, "Corotation/Rotation": "none",
@@ -282,6 +290,12 @@ with chromium.Chromium() as browser:
 
     opens(browser, page.file, "phone", width=390, height=844, phone=True)
     runner.check(settled(browser)["body"] > 0.05 and browser.evaluate(SMALL % 32) == 0, "phone: the body, or small controls")
+
+    opens(browser, erring.file, "errors in space", **DESKTOP)
+    before = settled(browser)["hash"]
+    browser.evaluate("(s => { s.value = 'error_in_space'; s.dispatchEvent(new Event('change')); })(document.querySelector('.controls select'))")
+    runner.check(settled(browser)["hash"] != before, "the body has no colours of its errors in space")
+    runner.check("of a swing" in browser.evaluate("document.querySelector('.summary').textContent"), "the summary tells no error in space")
 
     opens(browser, flat.file, "dark", **DESKTOP, dark=True)
     background = [int(c) for c in re.findall(r"\d+", browser.evaluate("getComputedStyle(document.body).backgroundColor"))]

@@ -1,5 +1,6 @@
 """Time/Estimate error: the error by step doubling is close to the true one, and costs nothing where nobody asks."""
 
+import math
 import pathlib
 import sys
 
@@ -37,6 +38,45 @@ for method, n_steps in [("backward euler", 800), ("backward euler", 1600), ("trb
     runner.check(len(rows) == n_steps and abs(largest / estimate["largest"] - 1) < 1e-12 and
                  abs(rows[-1]["error"] / estimate["at_the_end"] - 1) < 1e-12, "error.csv")
 
+# Where steps are too long a third run tells the order: near to that of the method it corrects the estimate, far below it the
+# estimate is a lower bound.
+for method, n_steps in [("backward euler", 25), ("backward euler", 10), ("backward euler", 5), ("trbdf2", 3)]:
+    results = run(n_steps, Time__Method=method, Time__Estimate_error="true")
+    doubling, motion = results.summary()["error_estimate"]["step_doubling"], results.summary()["error_estimate"]["largest_motion"]
+    true_error = largest_distance(results.probes(), fine)
+    print(f"{method}, {n_steps} steps: {doubling} beside {true_error} m of {motion} m")
+    runner.check(("order" in doubling) == (doubling.get("by_second_run", doubling["largest"]) > 0.1 * motion), f"a third run: {doubling}")
+    if doubling.get("at_least"):
+        runner.check(0.5 * true_error < doubling["largest"] < 1.05 * true_error, f"at least {doubling} beside {true_error} m")
+    else:
+        runner.check(abs(doubling["largest"] / true_error - 1) < 0.35, f"{doubling} beside {true_error} m")
+BEAM = {"Mesh/Box size": "0.3, 0.04, 0.04", "Mesh/Box cubes": "15, 2, 2", "Material/Young modulus": 1e6, "Material/Poisson ratio": 0.4,
+        "Constraints/Clamped boundaries": 0, "Probes/Points": "tip: 0.3, 0.02, 0.02", "Loads/Gravity": "0, 0, -9.81",
+        "Corotation/Rotation": "none", "Time/Estimate error": "true", "Output/Frames": "none"}
+hanging = runner.simulate(runner.BAR, {**BEAM, "Time/Step": 0.005, "Time/Steps": 200})
+right = runner.simulate(runner.BAR, {**BEAM, "Time/Estimate error": "false", "Time/Method": "esdirk5", "Time/Step": 0.005, "Time/Steps": 200})
+doubling = hanging.summary()["error_estimate"]["step_doubling"]
+true_error = max(abs(a["tip.uz"] - b["tip.uz"]) for a, b in zip(hanging.probes(), right.probes()))
+runner.check(doubling["at_least"] and doubling["order"] < 0.7 and 0.5 * true_error < doubling["largest"] < true_error,
+             f"a swing damped by its method: {doubling} beside {true_error} m")
+
+# Fixed steps sum up what the embedded formula says, as variable steps do: in one step the two agree, and the error falls with
+# the order of the embedded formula at least (the body starts without force).
+def local_error(method, step, **more):
+    settings = {**SMOOTH, "Time/Method": method, "Time/Step": step, "Time/Steps": 1, "Time/Newton tolerance": 1e-13,
+                **{key.replace("__", "/").replace("_", " "): value for key, value in more.items()}}
+    return runner.simulate(runner.BAR, settings).summary()["error_estimate"]["sum_of_local_errors"]
+
+
+LOOSE = {"Time__Variable_steps": "true", "Time__Relative_tolerance": 0.9, "Time__Displacement_tolerance": 1e6, "Time__Velocity_tolerance": 1e9}
+for method, order in [("sdirk2", 2), ("trbdf2", 3), ("esdirk3", 3), ("esdirk4", 4), ("esdirk5", 5)]:
+    fixed, variable = local_error(method, 1e-3), local_error(method, 1e-3, **LOOSE)
+    runner.check(abs(fixed / variable - 1) < 1e-2, f"{method}: {fixed}, {variable} m")
+    if order < 5:  # where the error is above round-off
+        observed = math.log2(local_error(method, 4e-4) / local_error(method, 2e-4))
+        runner.check(observed > order - 0.5, f"{method}: order {observed}")
+runner.check(local_error("implicit midpoint", 1e-3) is None, "implicit midpoint has no embedded formula")
+
 # Variable steps are compared at the end.
 for method in ["esdirk4", "ida"]:
     tolerances = {"Time__Method": method, "Time__Variable_steps": "true", "Time__Relative_tolerance": 1e-4}
@@ -67,7 +107,7 @@ results = runner.simulate(runner.BAR, {**failing, "Time/Estimate error": "true"}
 summary = results.summary()
 runner.check(summary["status"] == "done" and "finite" in summary["error_estimate"]["step_doubling"]["failed"], f"{summary}")
 status, output, error = runner.run(runner.BAR, "--output", results.folder, "--set", "Time/Estimate error=true", *runner.overrides(SMOOTH))
-runner.check(status == 0 and "% of the motion" in output and "half the step" in output, output + error)
+runner.check(status == 0 and "% of the motion" in output and "half and a quarter of the step" in output, output + error)
 
 # Variable steps are compared where both runs have the same time: one that fails before knows no error, and tells none of 0.
 failing = {**SMOOTH, "Time/Method": "esdirk4", "Time/Variable steps": "true", "Time/Estimate error": "true",

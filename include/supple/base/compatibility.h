@@ -25,8 +25,16 @@ namespace Supple
     using Boolean                      = sunbooleantype;
     constexpr int linear_solver_failed = SUN_ERR_EXT_FAIL;
 #else
-    using Boolean                      = booleantype;
-    constexpr int linear_solver_failed = SUNLS_PACKAGE_FAIL_UNREC;
+    using Boolean                                = booleantype;
+    constexpr int linear_solver_failed           = SUNLS_PACKAGE_FAIL_UNREC;
+#endif
+
+
+    /** Whether ARKode tells of the first stage of a step where that is its start. */
+#if DEAL_II_SUNDIALS_VERSION_GTE(6, 7, 0)
+    constexpr bool tells_of_explicit_first_stage = false;
+#else
+    constexpr bool tells_of_explicit_first_stage = true;
 #endif
 
 

@@ -7,7 +7,8 @@
 
 namespace Supple
 {
-  /** A CSV file of numbers which is complete after every row. */
+  /** A CSV file of numbers which is complete after every row. What is not a number is left empty.
+   */
   class CsvFile
   {
   public:

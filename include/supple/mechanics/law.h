@@ -106,6 +106,10 @@ namespace Supple
     virtual std::vector<CellState>
     states(const CellRotations &rotations, const double *displacement) const = 0;
 
+    /** First Piola-Kirchhoff stress of each batch [Pa]; without P33 in plane stress. */
+    virtual std::vector<Matrix3<Pack>>
+    stresses(const CellRotations &rotations, const double *displacement) const = 0;
+
     /** Sum over owned cells and their nodes of (round-off in the node's force)^2 [N^2], at strains
      * of order one. */
     virtual double

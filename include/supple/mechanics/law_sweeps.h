@@ -95,6 +95,18 @@ namespace Supple
     std::vector<CellState>
     states(const CellRotations &rotations, const double *displacement) const override;
 
+    std::vector<Matrix3<Pack>>
+    stresses(const CellRotations &rotations, const double *displacement) const override
+    {
+      std::vector<Matrix3<Pack>> P(cells.n_batches());
+      cells.for_batches([&](const std::size_t b) {
+        ask_for_next(rotations.current, b);
+        const Matrix3<Pack> R = rotation_of(rotations.current, b);
+        P[b] = R * stress_in_section(b, R, cells.deformation_gradient(b, displacement));
+      });
+      return P;
+    }
+
     double
     round_off_square() const override
     {
@@ -216,6 +228,16 @@ namespace Supple
     rotation_of(const CellRotations::List &rotations, const std::size_t b)
     {
       return rotations.empty() ? Matrix3<Pack>::identity() : rotations[b];
+    }
+
+    /** In the rotated frame, without what formulas in space have along z in plane stress. */
+    Matrix3<Pack>
+    stress_in_section(const std::size_t b, const Matrix3<Pack> &R, const Matrix3<Pack> &F) const
+    {
+      Matrix3<Pack> P = formulas.stress(cells.batch(b), R, F);
+      if (cells.section.geometry == Geometry::plane_stress)
+        P(2, 2) = 0.;
+      return P;
     }
 
     /** Of the cells of a batch, with the thinning of a body in plane stress. */
@@ -464,10 +486,8 @@ namespace Supple
       const Matrix3<Pack> F = cells.deformation_gradient(b, displacement);
       const Matrix3<Pack> R = rotation_of(rotations.current, b);
 
-      Matrix3<Pack> deviator = formulas.stress(cells.batch(b), R, F);
-      if (cells.section.geometry == Geometry::plane_stress)
-        deviator(2, 2) = 0.;
-      const Pack mean = trace(deviator) / 3.;
+      Matrix3<Pack> deviator = stress_in_section(b, R, F);
+      const Pack mean        = trace(deviator) / 3.;
       for (unsigned int i = 0; i < 3; ++i)
         deviator(i, i) -= mean;
 

@@ -20,6 +20,19 @@ namespace Supple
   };
 
 
+  /** H of a batch: the rotation (trace) or cof F (determinant). */
+  inline Matrix3<Pack>
+  volume_gradient(const CellRotations::List &rotations,
+                  const VolumeMeasure measure,
+                  const std::size_t batch,
+                  const Matrix3<Pack> &F)
+  {
+    if (measure == VolumeMeasure::determinant)
+      return cofactor(F);
+    return rotations.empty() ? Matrix3<Pack>::identity() : rotations[batch];
+  }
+
+
   /**
    * Of each cell, about this displacement: theta = H : F - h with H = R, h = 3 (trace, with the
    * rotations given) or H = cof F, h = 2 det F + 1 (determinant). With the hoop strain of an

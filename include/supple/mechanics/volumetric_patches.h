@@ -71,6 +71,21 @@ namespace Supple
     std::vector<double>
     mean_stress(const double *displacement) const;
 
+    /** How much a cell and its patch have grown. */
+    struct Growth
+    {
+      double cell;  ///< theta_e
+      double patch; ///< Theta_P
+    };
+
+    /** Of each cell, owned or not, by a displacement. */
+    std::vector<Growth>
+    growth(const double *displacement) const;
+
+    /** What a small change of the displacement adds to it, to first order. */
+    std::vector<Growth>
+    growth_by_change(const double *change) const;
+
     /** Sum over own patches of (round-off in the forces)^2 [N^2], at strains of order one. */
     double
     round_off_square() const;
@@ -107,6 +122,10 @@ namespace Supple
   private:
     void
     find_nodes(const std::vector<PatchCell> &list);
+
+    /** @param constant_part 1 for a displacement, 0 for a change of it */
+    std::vector<Growth>
+    growth(const double *w, double constant_part) const;
 
     unsigned int
     n_own() const

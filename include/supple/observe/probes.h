@@ -34,6 +34,18 @@ namespace Supple
     std::vector<double>
     values(const State &state, const Vector &reactions) const;
 
+    /** A component of the displacement of a probe: the sum of these entries times a weight. */
+    struct Component
+    {
+      std::string name;               ///< as in column_names()
+      std::vector<unsigned int> dofs; ///< owned by this process
+      double weight;                  ///< one over the number of vertices
+    };
+
+    /** Three for each probe, one after the other. */
+    std::vector<Component>
+    displacement_components() const;
+
     /** A line for each probe: which vertex was taken and how far it is, or how many vertices it
      * has. */
     std::vector<std::string>

@@ -15,8 +15,8 @@ namespace Supple
 {
   /**
    * The surface of the body in each frame, for the report page: its triangles, those of a plane
-   * body being all its cells, the displacement of their vertices, and volume ratio and von Mises
-   * stress of the cells behind them.
+   * body being all its cells, the displacement of their vertices, and volume ratio, von Mises
+   * stress and perhaps the error in space of the cells behind them.
    *
    * The frames are kept in a file of the output folder, report.frames, so that a run that goes on
    * from a checkpoint has those before it. Vertices are sorted by their index in the mesh before
@@ -25,7 +25,8 @@ namespace Supple
   class Film
   {
   public:
-    Film(const Body &body, const std::string &folder);
+    /** @param with_errors whether frames have errors in space; zero where they are unknown */
+    Film(const Body &body, const std::string &folder, bool with_errors);
 
     /** Its name in the folder. */
     static std::string
@@ -64,8 +65,15 @@ namespace Supple
                  const std::vector<unsigned int> &corners,
                  const std::vector<unsigned int> &unsorted_materials);
 
+    /** The values of all triangles, field by field, on the first process; collective. */
+    std::vector<float>
+    gather_fields(const Drawing &drawing) const;
+
     void
     open(bool anew);
+
+    std::size_t
+    head_size() const;
 
     std::size_t
     frame_size() const;
@@ -78,6 +86,8 @@ namespace Supple
 
     const Body &body;
     const std::string file;
+    const std::size_t n_fields; ///< of the triangles
+    const std::string magic;    ///< how the file begins
     const bool root;
     std::vector<unsigned int> own_nodes; ///< on the surface, owned by this process
     struct Triangle

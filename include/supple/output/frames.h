@@ -2,6 +2,7 @@
 #define supple_frames_h
 
 #include <supple/observe/measurement.h>
+#include <supple/observe/space_error.h>
 #include <supple/output/film.h>
 #include <supple/output/output_parameters.h>
 
@@ -18,11 +19,15 @@ namespace Supple
   {
   public:
     /** @param folder of the results; solution.pvd goes there and VTU files into solution/ below
-     * it, and if a report is wanted, the film that it shows */
+     * it, and if a report is wanted, the film that it shows
+     * @param errors of the cells, which a frame of that step has too; null if there are none
+     * @param of_all_frames whether each frame has them, so that the film has them too */
     Frames(const Configuration &configuration,
            const ElasticForce &elastic,
            const OutputParameters &parameters,
-           const std::string &folder);
+           const std::string &folder,
+           const CellErrors *errors,
+           bool of_all_frames);
 
     /** The patterns of their names in the folder, those of the film included. */
     static std::vector<std::string>
@@ -100,6 +105,7 @@ namespace Supple
     const Body &body;
     const OutputParameters &parameters;
     const std::string folder;
+    const CellErrors *const errors;
     const Vtu vtu;
     std::unique_ptr<Film> film;
     std::vector<std::pair<double, std::string>> records; ///< time and file of each frame

@@ -14,7 +14,7 @@ namespace Supple
   {
     double time, step;
     std::vector<float> displacement; ///< 3 for each vertex [m]
-    std::vector<float> cells;        ///< volume ratios of all triangles, then stresses [Pa]
+    std::vector<float> cells;        ///< values of all triangles, field by field
   };
 
 
@@ -22,9 +22,10 @@ namespace Supple
    * What the report page needs to draw the body: a description, and bytes of which it tells the
    * places, all little-endian: rest positions (3 float each), triangles (3 uint32), the place of
    * their material among those that occur (1 uint16, one more if their number is odd), and a zlib
-   * stream of the frames. The values of a frame are displacements (3 int16 each), volume ratio and
-   * von Mises stress of the triangles (uint16). The stream has their differences d from the frame
-   * before, as 2 d or -2 d - 1 (uint16): the low bytes of a frame, then its high ones.
+   * stream of the frames. The values of a frame are displacements (3 int16 each), volume ratio, von
+   * Mises stress and, if there are three fields, error in space of the triangles (uint16). The
+   * stream has their differences d from the frame before, as 2 d or -2 d - 1 (uint16): the low
+   * bytes of a frame, then its high ones.
    */
   class PackedFilm
   {
@@ -32,7 +33,8 @@ namespace Supple
     /** @param rest positions, 3 for each vertex [m] */
     PackedFilm(const std::vector<float> &rest,
                const std::vector<std::array<unsigned int, 3>> &triangles,
-               const std::vector<unsigned int> &materials_of_triangles);
+               const std::vector<unsigned int> &materials_of_triangles,
+               std::size_t n_fields);
 
     /** In place of those that were set before. @throws WriteError */
     void
@@ -49,12 +51,11 @@ namespace Supple
     set_ranges(const std::vector<FilmFrame> &frames);
 
     std::size_t n_vertices, n_triangles, n_surface_bytes;
-    std::vector<double> times;           ///< [s]
-    std::vector<double> steps;           ///< in which they were reached
-    double largest_displacement = 0.;    ///< of a component [m]; 32767 stands for it
-    std::array<double, 2> volume_ratio;  ///< least and largest, for 0 and 65535
-    std::array<double, 2> von_mises;     ///< the same [Pa]
-    std::vector<unsigned int> materials; ///< ids that occur
+    std::vector<double> times;                 ///< [s]
+    std::vector<double> steps;                 ///< in which they were reached
+    double largest_displacement = 0.;          ///< of a component [m]; 32767 stands for it
+    std::vector<std::array<double, 2>> ranges; ///< of each field, for 0 and 65535
+    std::vector<unsigned int> materials;       ///< ids that occur
   };
 } // namespace Supple
 

@@ -19,6 +19,8 @@ namespace Supple
     const Vector &displacement;
     const Vector *velocity; ///< null in a static problem
     const CellFields &cells;
+    const std::vector<float>
+      *error_in_space; ///< of the cells, by LocalCell::index; null if unknown
   };
 
 

@@ -41,6 +41,10 @@ namespace Supple
     std::string
     time_in_words() const;
 
+    /** Which errors are estimated. */
+    std::string
+    errors_in_words() const;
+
     /** The geometry of a plane body, to begin the description of its model with. */
     std::string
     section_in_words() const;

@@ -13,6 +13,7 @@
 #include <supple/run/problem.h>
 #include <supple/run/results.h>
 #include <supple/run/skipped_pulses.h>
+#include <supple/run/space_estimate.h>
 #include <supple/run/step_doubling.h>
 #include <supple/run/summary.h>
 #include <supple/run/writers.h>
@@ -95,9 +96,22 @@ namespace Supple
     check();
 
   private:
-    /** The second run, which tells the error of this one. */
+    /** The second run, which tells the error of this one; null if nobody asks for it. */
     std::unique_ptr<StepDoubling>
-    make_second_run() const;
+    make_second_run();
+
+    /** A run of another scene, that ends with a ComputationError if this one is to be interrupted.
+     */
+    StepDoubling::OtherRun
+    make_third_run(const Parameters &scene);
+
+    /** What estimates the error in space of this run; null if nobody asks for it. */
+    std::unique_ptr<SpaceEstimate>
+    make_space_estimate();
+
+    /** Of the run, without those of others that move along. */
+    double
+    own_seconds() const;
 
     /** All that follow the run, each by one line. */
     void
@@ -161,6 +175,7 @@ namespace Supple
     const Vector start_displacement;
 
     Results results;
+    std::unique_ptr<SpaceEstimate> space;
     FrameWriter *frames      = nullptr; ///< of the results
     Checkpoints *checkpoints = nullptr; ///< of the results
     Interruption interruption;

@@ -18,27 +18,44 @@ namespace Supple
    *
    * With variable steps the second run has a tenth of the tolerances, the factor is 10/9, and the
    * two are compared where they are at the same time, which is at the end.
+   *
+   * Where that is more than a tenth of the motion, steps are too long for p to be believed. Then a
+   * third run, halved or tightened once more, follows at the end: g = |u - u_second| / |u_second -
+   * u_third| takes the place of 2^p (Roache 1998). If the error falls too slowly for that, only a
+   * lower bound is known: what the third run has gained, and what that still lacks by the order p.
    */
   class StepDoubling : public Listener
   {
   public:
-    /** Where the second run is. */
+    /** Where another run is. */
     struct Arrival
     {
       double time;                ///< [s], or load factor
       const Vector &displacement; ///< [m]
     };
 
-    /** Moves the second run up to a time or just past it. */
-    using SecondRun = std::function<Arrival(double time)>;
+    /** Moves another run up to a time or just past it. */
+    using OtherRun = std::function<Arrival(double time)>;
+
+    /** What three runs tell. */
+    struct Observed
+    {
+      double error;                ///< of the first run, at the instant it was largest [m]
+      double gain;                 ///< g
+      std::optional<double> order; ///< log2 g with fixed steps, if there is one
+      bool at_least;               ///< the error may be larger
+    };
 
     /** What the second run is to be made of. @param scene of the run whose error is asked for */
     static Parameters
     second_scene(const Parameters &scene);
 
     /** @param time of the run whose error is asked for
-     *  @param second_run of second_scene(); it may throw a ComputationError */
-    StepDoubling(const TimeParameters &time, const SecondRun &second_run);
+     *  @param second_run of second_scene(); it may throw a ComputationError
+     *  @param make_third_run with second_scene() of that; both may throw a ComputationError */
+    StepDoubling(const TimeParameters &time,
+                 const OtherRun &second_run,
+                 const std::function<OtherRun()> &make_third_run);
 
     void
     begin(const Observation &now, bool resumed) override;
@@ -59,20 +76,53 @@ namespace Supple
       return error_now;
     }
 
-    double largest = 0.;    ///< error so far [m]
-    double last    = 0.;    ///< error where it was found last [m]
-    double seconds = 0.;    ///< that the second run took
-    std::string failure;    ///< why no error is known; empty while there is a second run
-    const std::string name; ///< "half the step" or "a tenth of the tolerances"
+    /** Three runs, if there was a third. */
+    const std::optional<Observed> &
+    observed() const
+    {
+      return of_three;
+    }
+
+    /** The best that is known [m]. */
+    double
+    best() const
+    {
+      return of_three ? of_three->error : largest;
+    }
+
+    /** "half the step", "half and a quarter of the step" */
+    std::string
+    name() const;
+
+    double largest = 0.;       ///< error so far, of the order p [m]
+    double last    = 0.;       ///< error where it was found last [m]
+    double seconds = 0.;       ///< that the other runs took
+    std::string failure;       ///< why no error is known; empty while there is a second run
+    std::string third_failure; ///< why there is no third run, where there should be one
+    const unsigned int order;  ///< p
 
   private:
     std::optional<double>
     follow(double time, const Vector &displacement);
 
-    const double factor;
-    const SecondRun second_run;
+    /** Runs the third one up to the instant of the largest error. */
+    void
+    add_third_run();
+
+    Observed
+    observe(double first_to_second, double second_to_third, double first_to_third) const;
+
+    const bool variable_steps;
+    const double gain; ///< how much the error falls from run to run
+    const OtherRun second_run;
+    const std::function<OtherRun()> make_third_run;
     std::optional<double> error_now;
-    bool compared = false; ///< whether the two runs have been at the same time
+    bool compared = false;       ///< whether the two runs have been at the same time
+    Vector start;                ///< displacement [m]
+    double motion          = 0.; ///< from there, largest so far over all vertices [m]
+    double time_of_largest = 0.;
+    Vector first_at_largest, second_at_largest; ///< displacements when the error was largest [m]
+    std::optional<Observed> of_three;
   };
 } // namespace Supple
 

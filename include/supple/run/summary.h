@@ -2,6 +2,7 @@
 #define supple_summary_h
 
 #include <supple/observe/measurement.h>
+#include <supple/run/space_estimate.h>
 #include <supple/run/step_doubling.h>
 #include <supple/time/model.h>
 #include <supple/time/stable_step.h>
@@ -79,12 +80,14 @@ namespace Supple
     double setup_seconds              = 0.;
     double run_seconds                = 0.;
     double error_estimate             = 0.;      ///< [m]
+    bool local_errors_add_up          = true;    ///< to about the error of the run
     double largest_motion             = 0.;      ///< of a vertex from its place at the start [m]
     const StepDoubling *step_doubling = nullptr; ///< if there is a second run
-    unsigned int frames               = 0;
-    bool history                      = false;
-    bool probes                       = false;
-    bool observed                     = false; ///< whether energies were measured
+    std::optional<SpaceErrors> space_errors;     ///< if they were estimated
+    unsigned int frames = 0;
+    bool history        = false;
+    bool probes         = false;
+    bool observed       = false; ///< whether energies were measured
     Measurement last;
     Extremes extremes;
   };

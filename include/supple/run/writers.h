@@ -7,6 +7,7 @@
 #include <supple/observe/profiles.h>
 #include <supple/output/frames.h>
 #include <supple/run/listener.h>
+#include <supple/run/space_estimate.h>
 #include <supple/run/step_doubling.h>
 
 #include <nlohmann/json_fwd.hpp>
@@ -69,11 +70,13 @@ namespace Supple
   };
 
 
-  /** history.csv: energies, momenta, volumes, iterations. */
+  /** history.csv: energies, momenta, volumes, iterations; and the error in space of the frames, if
+   * that is asked for, empty where there is none. */
   class HistoryTable : public StateTable
   {
   public:
-    HistoryTable(const std::string &folder, Effort &effort);
+    /** @param space that estimates the errors of the frames, or null */
+    HistoryTable(const std::string &folder, Effort &effort, const SpaceEstimate *space);
 
     static std::vector<std::string>
     files();
@@ -81,6 +84,8 @@ namespace Supple
   private:
     std::vector<double>
     row(const Observation &now) const override;
+
+    const SpaceEstimate *const space;
   };
 
 
@@ -155,11 +160,14 @@ namespace Supple
   class FrameWriter : public Writer
   {
   public:
+    /** As Frames. */
     FrameWriter(const std::string &folder,
                 Effort &effort,
                 const Configuration &configuration,
                 const ElasticForce &elastic,
-                const OutputParameters &parameters);
+                const OutputParameters &parameters,
+                const CellErrors *errors,
+                bool of_all_frames);
 
     static std::vector<std::string>
     files();

@@ -6,6 +6,7 @@
 #include <supple/mechanics/material_parameters.h>
 #include <supple/mesh/mesh_parameters.h>
 #include <supple/observe/probe_parameters.h>
+#include <supple/observe/space_parameters.h>
 #include <supple/output/output_parameters.h>
 #include <supple/solvers/solver_parameters.h>
 #include <supple/time/time_parameters.h>
@@ -30,6 +31,7 @@ namespace Supple
     SolverParameters solver;
     OutputParameters output;
     ProbeParameters probes;
+    SpaceParameters space;
     CheckpointParameters checkpoint;
 
     ParameterFile file;     ///< where each entry was set

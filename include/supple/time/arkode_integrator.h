@@ -3,7 +3,10 @@
 
 #include <supple/time/dynamic_integrator.h>
 
+#include <arkode/arkode_butcher.h>
+
 #include <limits>
+#include <vector>
 
 namespace Supple
 {
@@ -68,6 +71,22 @@ namespace Supple
     void
     set_table();
 
+    /** Has fixed steps estimate their error by the embedded formula, if the method has one. */
+    void
+    set_embedded_formula(const ARKodeButcherTableMem &table);
+
+    /** Of the step that begins. */
+    void
+    begin_error();
+
+    /** Adds the next stage to the error. @param y the unknowns there */
+    void
+    add_stage(const double *y);
+
+    /** Of a fixed step [m]; not a number without an embedded formula. */
+    double
+    embedded_error();
+
     void
     check_stability() const;
 
@@ -130,8 +149,11 @@ namespace Supple
     StepReport
     take_fixed_step();
 
-    const bool remembers; ///< more than the configuration from step to step
-    bool linear = false;  ///< each stage is one linear system
+    const bool remembers;              ///< more than the configuration from step to step
+    bool linear = false;               ///< each stage is one linear system
+    std::vector<double> error_weights; ///< of the stages of a fixed step, see add_stage()
+    bool first_stage_is_start = false; ///< of a step
+    unsigned int stage        = 0;     ///< the next one
     Sundials::LinearSystem mass_system;
     Sundials::StateVector error;
     void *memory           = nullptr;

@@ -1,0 +1,132 @@
+#ifndef supple_recovery_h
+#define supple_recovery_h
+
+#include <supple/linear_algebra/halo.h>
+#include <supple/mechanics/body.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace Supple
+{
+  /** Up to eight numbers of a cell or a vertex, computed side by side. */
+  struct Octet
+  {
+    Lanes<double, 6> lanes;
+  };
+
+
+  /**
+   * Superconvergent patch recovery (Zienkiewicz and Zhu 1992): from values that are constant in
+   * each cell it makes continuous ones, x*, linear in each cell. The value at a vertex is that of
+   * the linear polynomial that fits best, in the mean square weighted by the volume, the cells
+   * around the vertex at their centroids. A linear field is recovered exactly.
+   *
+   * Where too few cells meet for that, on edges and at corners, the polynomial is the mean of those
+   * of the neighbours along edges; where these have too few as well, it is found after theirs.
+   *
+   * Stresses jump between materials: a vertex has a value for each material that meets there, from
+   * the cells of that material alone. Such a pair is a site.
+   */
+  class Recovery
+  {
+  public:
+    /** Collective. */
+    explicit Recovery(const Body &body);
+
+    /** A field and what is recovered of it. */
+    struct Field
+    {
+      std::vector<Octet> of_cells; ///< in the order of Body::cell_nodes
+      std::vector<Octet> of_sites;
+    };
+
+    /** Collective. @param of_cells of all cells of this process, owned or not */
+    Field
+    recover(std::vector<Octet> of_cells) const;
+
+    /** Lane by lane, the integral over a cell of (x* - x)(y* - y), all around the axis if there is
+     * one. */
+    Octet
+    product(const Field &x, const Field &y, std::size_t cell) const;
+
+    /** The mean of x* - x over a cell. */
+    Octet
+    mean_difference(const Field &x, std::size_t cell) const;
+
+    /** Volume of a cell [m^3]. */
+    double
+    volume(const std::size_t cell) const
+    {
+      return geometry[cell].volume;
+    }
+
+  private:
+    using Place = std::array<double, 3>;
+
+    struct Geometry
+    {
+      Place centroid;
+      double volume;
+    };
+
+    /** The linear polynomial of a site, about its vertex. */
+    struct Fit
+    {
+      Octet value;
+      std::array<Octet, 3> slopes; ///< along x, y, z
+    };
+
+    void
+    measure_cells();
+
+    /** The materials of each node, as its owner knows them. */
+    void
+    find_materials();
+
+    void
+    find_sites();
+
+    /** Those with too few cells, and the neighbours that their polynomials come from. */
+    void
+    find_poor_sites();
+
+    /** Those whose neighbours are known already. @param known of all sites */
+    void
+    find_poor_sites_beside(const std::vector<unsigned int> &known);
+
+    std::size_t
+    site_of(unsigned int node, unsigned int material) const;
+
+    Fit
+    fit(std::size_t site, const std::vector<Octet> &of_cells) const;
+
+    /** The mean of the polynomials of the neighbours of a poor site. */
+    Fit
+    mean_of_neighbours(std::size_t poor, const std::vector<Fit> &fits) const;
+
+    std::array<Octet, 4>
+    differences(const Field &x, std::size_t cell) const;
+
+    /** Of each node of a cell of an axisymmetric body, over that of the centroid. */
+    std::array<double, 3>
+    nodal_radii(std::size_t cell) const;
+
+    const Body &body;
+    const Halo halo;
+    const unsigned int n_nodes; ///< of a cell
+    std::vector<Geometry> geometry;
+    unsigned int n_slots = 1;            ///< sites of a node
+    std::vector<unsigned int> materials; ///< of each site; ascending at a node, padded
+    std::vector<std::array<std::uint32_t, 4>> sites_of_cells;
+    std::vector<std::size_t> start;          ///< of each site in cells_around
+    std::vector<std::uint32_t> cells_around; ///< complete for sites of owned nodes
+    std::vector<std::uint32_t> poor;         ///< sites of owned nodes
+    std::vector<std::size_t> end_of_round;   ///< in poor: each takes from those before
+    std::vector<std::size_t> start_of_neighbours;
+    std::vector<std::uint32_t> neighbours; ///< sites, of those in poor
+  };
+} // namespace Supple
+
+#endif

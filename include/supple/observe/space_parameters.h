@@ -1,0 +1,25 @@
+#ifndef supple_space_parameters_h
+#define supple_space_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+
+namespace Supple
+{
+  /** Subsection Space: what is asked of the error in space. */
+  struct SpaceParameters
+  {
+    enum class Estimate
+    {
+      end,
+      frames,
+      never
+    };
+
+    Estimate estimate = Estimate::end;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+  };
+} // namespace Supple
+
+#endif

@@ -1,0 +1,110 @@
+#ifndef supple_space_estimate_h
+#define supple_space_estimate_h
+
+#include <supple/observe/probe_errors.h>
+#include <supple/run/listener.h>
+#include <supple/run/problem.h>
+#include <supple/time/time_integrator.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace Supple
+{
+  /** What is known of the error in space of a state, as numbers and in words. */
+  struct SpaceErrors
+  {
+    double time     = 0.; ///< of the state [s]; the load factor of a static problem
+    bool stationary = false;
+    std::string of; ///< what EnergyError::of_work() is a part of, in a static problem
+    EnergyError energy;
+    std::string unknown; ///< why the numbers of the energy mean nothing; empty if they do
+    std::vector<ProbeError> probes;
+    std::string probes_unknown; ///< why there are none, where there should be some
+
+    /** "in space about 45 % of tip.uz (mesh)" */
+    std::string
+    in_words() const;
+
+    /** What the user should know, in sentences. */
+    std::vector<std::string>
+    warnings() const;
+
+    nlohmann::ordered_json
+    to_json() const;
+  };
+
+
+  /** Estimates the error in space of the last state and, if asked for, of each that gets a frame.
+   */
+  class SpaceEstimate : public Listener
+  {
+  public:
+    /** @param frame_due whether a state gets a frame */
+    SpaceEstimate(Problem &problem,
+                  const TimeIntegrator &integrator,
+                  const Probes &probes,
+                  const std::function<bool(const Measurement &)> &frame_due);
+
+    void
+    begin(const Observation &now, bool resumed) override;
+
+    bool
+    after_step(const Observation &now) override;
+
+    /** Of the last state; nothing if the run did not come to its end. */
+    const std::optional<SpaceErrors> &
+    at_the_end() const
+    {
+      return last;
+    }
+
+    /** EnergyError::of_work() after a step; not a number where it was not estimated. */
+    double
+    of_work_after(unsigned int step) const;
+
+    /** For the frames. */
+    const CellErrors &
+    of_cells() const
+    {
+      return cell_errors;
+    }
+
+    double seconds = 0.; ///< that it took
+
+  private:
+    SpaceErrors
+    estimate(const Observation &now);
+
+    /** Whether anything is held elsewhere than at its place at rest; collective. */
+    bool
+    body_is_moved() const;
+
+    /** Why there can be no estimate by the energy; empty if there can. */
+    std::string
+    obstacle(const EnergyError &energy, double kinetic) const;
+
+    /** Adds the errors of probes to those of a state in equilibrium. */
+    void
+    add_probes(SpaceErrors &errors);
+
+    Problem &problem;
+    const TimeIntegrator &integrator;
+    const Probes &probes;
+    const std::function<bool(const Measurement &)> frame_due;
+    std::unique_ptr<SpaceError> space_error; ///< from the first estimate on
+    std::unique_ptr<PointForces> points;
+    Vector loads; ///< at the time of the state [N]
+    std::optional<SpaceErrors> last;
+    CellErrors cell_errors;
+    double of_work = std::numeric_limits<double>::quiet_NaN(); ///< of that state
+  };
+} // namespace Supple
+
+#endif

@@ -1,0 +1,351 @@
+#include <supple/observe/recovery.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace Supple
+{
+  namespace
+  {
+    constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
+
+
+    /** With fewer cells around it a site takes the polynomials of its neighbours. */
+    unsigned int
+    least_cells(const unsigned int n_nodes)
+    {
+      return n_nodes == 4 ? 8 : 4;
+    }
+
+
+    /**
+     * Solves the normal equations A x = b of three slopes, by L D L^T; x takes the place of b. In a
+     * direction in which all points are at the same place there is no slope. @param A its lower
+     * half, row by row; positive semidefinite
+     */
+    void
+    solve(const std::array<double, 6> &A, std::array<Octet, 3> &x)
+    {
+      constexpr double flat = 1e-10; // of the trace
+      const double least    = flat * (A[0] + A[2] + A[5]);
+      double L[3][3]{}, D[3], inverse[3];
+      for (unsigned int k = 0; k < 3; ++k)
+        for (unsigned int i = k; i < 3; ++i)
+          {
+            double entry = A[i * (i + 1) / 2 + k];
+            for (unsigned int j = 0; j < k; ++j)
+              entry -= L[i][j] * L[k][j] * D[j];
+            if (i == k)
+              {
+                D[k]       = entry > least ? entry : 0.;
+                inverse[k] = D[k] > 0. ? 1. / D[k] : 0.;
+              }
+            else
+              L[i][k] = entry * inverse[k];
+          }
+      for (unsigned int k = 0; k < 3; ++k)
+        for (unsigned int j = 0; j < k; ++j)
+          x[k].lanes -= L[k][j] * x[j].lanes;
+      for (unsigned int k = 3; k-- > 0;)
+        {
+          x[k].lanes *= inverse[k];
+          for (unsigned int i = k + 1; i < 3; ++i)
+            x[k].lanes -= L[i][k] * x[i].lanes;
+        }
+    }
+  } // namespace
+
+
+  Recovery::Recovery(const Body &body)
+    : body(body)
+    , halo(body.partitioner, 3)
+    , n_nodes(body.cells->n_nodes)
+  {
+    measure_cells();
+    find_materials();
+    find_sites();
+    find_poor_sites();
+  }
+
+
+  void
+  Recovery::measure_cells()
+  {
+    geometry.resize(body.cell_nodes.size());
+    const Cells &cells = *body.cells;
+    for (std::size_t b = 0; b < cells.n_batches(); ++b)
+      cells.for_lanes(b, [&](const unsigned int lane, const std::size_t c) {
+        geometry[c].volume = cells.batch(b).volume[lane];
+      });
+    for (std::size_t c = 0; c < geometry.size(); ++c)
+      {
+        Place sum{};
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          for (unsigned int i = 0; i < 3; ++i)
+            sum[i] += body.positions[body.cell_nodes[c][a]][i];
+        for (unsigned int i = 0; i < 3; ++i)
+          geometry[c].centroid[i] = sum[i] / n_nodes;
+      }
+  }
+
+
+  void
+  Recovery::find_materials()
+  {
+    if (body.mesh.materials.size() == 1)
+      {
+        materials.assign(body.n_local, body.mesh.materials.begin()->first);
+        return;
+      }
+    std::vector<std::vector<unsigned int>> list(body.n_owned);
+    for (std::size_t c = 0; c < body.cell_nodes.size(); ++c)
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        if (const unsigned int node = body.cell_nodes[c][a]; node < body.n_owned)
+          list[node].push_back(body.cell_material[c]);
+    unsigned int most = 1;
+    for (auto &ids : list)
+      {
+        std::sort(ids.begin(), ids.end());
+        ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+        most = std::max<unsigned int>(most, ids.size());
+      }
+    n_slots = dealii::Utilities::MPI::max(most, body.mesh.communicator);
+    materials.assign(std::size_t(n_slots) * body.n_local, none);
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      std::copy(list[node].begin(), list[node].end(), &materials[std::size_t(n_slots) * node]);
+    halo.update(reinterpret_cast<char *>(materials.data()), n_slots * sizeof(unsigned int));
+  }
+
+
+  std::size_t
+  Recovery::site_of(const unsigned int node, const unsigned int material) const
+  {
+    std::size_t site = std::size_t(n_slots) * node;
+    while (n_slots > 1 && materials[site] != material)
+      ++site;
+    return site;
+  }
+
+
+  void
+  Recovery::find_sites()
+  {
+    sites_of_cells.resize(geometry.size());
+    start.assign(materials.size() + 1, 0);
+    for (std::size_t c = 0; c < geometry.size(); ++c)
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        {
+          sites_of_cells[c][a] = site_of(body.cell_nodes[c][a], body.cell_material[c]);
+          ++start[sites_of_cells[c][a] + 1];
+        }
+    for (std::size_t site = 1; site < start.size(); ++site)
+      start[site] += start[site - 1];
+    cells_around.resize(start.back());
+    std::vector<std::size_t> end(start.begin(), start.end() - 1);
+    for (std::size_t c = 0; c < geometry.size(); ++c)
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        cells_around[end[sites_of_cells[c][a]]++] = c;
+  }
+
+
+  void
+  Recovery::find_poor_sites()
+  {
+    std::vector<unsigned int> n_cells(materials.size());
+    for (std::size_t site = 0; site < n_cells.size(); ++site)
+      n_cells[site] = start[site + 1] - start[site];
+    halo.update(reinterpret_cast<char *>(n_cells.data()), n_slots * sizeof(unsigned int));
+
+    std::vector<unsigned int> known(materials.size());
+    for (std::size_t site = 0; site < known.size(); ++site)
+      known[site] = n_cells[site] >= least_cells(n_nodes);
+    start_of_neighbours.push_back(0);
+    for (bool more = true; more;)
+      {
+        const std::size_t before = poor.size();
+        find_poor_sites_beside(known);
+        more = dealii::Utilities::MPI::max(poor.size() - before, body.mesh.communicator) > 0;
+        if (more)
+          end_of_round.push_back(poor.size());
+        for (std::size_t number = before; number < poor.size(); ++number)
+          known[poor[number]] = 1;
+        halo.update(reinterpret_cast<char *>(known.data()), n_slots * sizeof(unsigned int));
+      }
+  }
+
+
+  void
+  Recovery::find_poor_sites_beside(const std::vector<unsigned int> &known)
+  {
+    for (std::size_t site = 0; site < std::size_t(n_slots) * body.n_owned; ++site)
+      {
+        if (known[site])
+          continue;
+        for (std::size_t k = start[site]; k < start[site + 1]; ++k)
+          for (unsigned int a = 0; a < n_nodes; ++a)
+            if (const auto near = sites_of_cells[cells_around[k]][a]; known[near])
+              neighbours.push_back(near);
+        const auto first = neighbours.begin() + start_of_neighbours.back();
+        std::sort(first, neighbours.end());
+        neighbours.erase(std::unique(first, neighbours.end()), neighbours.end());
+        if (neighbours.size() == start_of_neighbours.back())
+          continue;
+        poor.push_back(site);
+        start_of_neighbours.push_back(neighbours.size());
+      }
+  }
+
+
+  Recovery::Fit
+  Recovery::fit(const std::size_t site, const std::vector<Octet> &of_cells) const
+  {
+    const Place &vertex = body.positions[site / n_slots];
+    Fit fit{};
+    double volume = 0.;
+    Place first{};
+    std::array<double, 6> second{};
+    for (std::size_t k = start[site]; k < start[site + 1]; ++k)
+      {
+        const Geometry &cell     = geometry[cells_around[k]];
+        const Lanes<double, 6> x = cell.volume * of_cells[cells_around[k]].lanes;
+        volume += cell.volume;
+        fit.value.lanes += x;
+        for (unsigned int i = 0, ij = 0; i < 3; ++i)
+          {
+            const double arm = cell.centroid[i] - vertex[i];
+            fit.slopes[i].lanes += arm * x;
+            first[i] += cell.volume * arm;
+            for (unsigned int j = 0; j <= i; ++j, ++ij)
+              second[ij] += cell.volume * arm * (cell.centroid[j] - vertex[j]);
+          }
+      }
+    // About the centroid of all, where mean and slopes do not know of each other.
+    fit.value.lanes /= volume;
+    for (unsigned int i = 0, ij = 0; i < 3; ++i)
+      {
+        fit.slopes[i].lanes -= first[i] * fit.value.lanes;
+        for (unsigned int j = 0; j <= i; ++j, ++ij)
+          second[ij] -= first[i] * first[j] / volume;
+      }
+    solve(second, fit.slopes);
+    for (unsigned int i = 0; i < 3; ++i)
+      fit.value.lanes -= first[i] / volume * fit.slopes[i].lanes;
+    return fit;
+  }
+
+
+  Recovery::Fit
+  Recovery::mean_of_neighbours(const std::size_t number, const std::vector<Fit> &fits) const
+  {
+    const Place &vertex     = body.positions[poor[number] / n_slots];
+    const std::size_t begin = start_of_neighbours[number], end = start_of_neighbours[number + 1];
+    const double share = 1. / (end - begin);
+    Fit mean{};
+    for (std::size_t k = begin; k < end; ++k)
+      {
+        const Fit &near    = fits[neighbours[k]];
+        const Place &place = body.positions[neighbours[k] / n_slots];
+        mean.value.lanes += share * near.value.lanes;
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            mean.value.lanes += share * (vertex[i] - place[i]) * near.slopes[i].lanes;
+            mean.slopes[i].lanes += share * near.slopes[i].lanes;
+          }
+      }
+    return mean;
+  }
+
+
+  Recovery::Field
+  Recovery::recover(std::vector<Octet> of_cells) const
+  {
+    std::vector<Fit> fits(materials.size());
+    for (std::size_t site = 0; site < std::size_t(n_slots) * body.n_owned; ++site)
+      if (start[site + 1] > start[site])
+        fits[site] = fit(site, of_cells);
+    std::size_t number = 0;
+    for (const std::size_t end : end_of_round)
+      {
+        halo.update(reinterpret_cast<char *>(fits.data()), n_slots * sizeof(Fit));
+        for (; number < end; ++number)
+          fits[poor[number]] = mean_of_neighbours(number, fits);
+      }
+
+    Field field{std::move(of_cells), std::vector<Octet>(fits.size())};
+    for (std::size_t site = 0; site < fits.size(); ++site)
+      field.of_sites[site] = fits[site].value;
+    halo.update(reinterpret_cast<char *>(field.of_sites.data()), n_slots * sizeof(Octet));
+    return field;
+  }
+
+
+  std::array<Octet, 4>
+  Recovery::differences(const Field &x, const std::size_t cell) const
+  {
+    std::array<Octet, 4> d{};
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      d[a].lanes = x.of_sites[sites_of_cells[cell][a]].lanes - x.of_cells[cell].lanes;
+    return d;
+  }
+
+
+  std::array<double, 3>
+  Recovery::nodal_radii(const std::size_t cell) const
+  {
+    std::array<double, 3> radii;
+    for (unsigned int a = 0; a < 3; ++a)
+      radii[a] = body.positions[body.cell_nodes[cell][a]][0] / geometry[cell].centroid[0];
+    return radii;
+  }
+
+
+  /** The integral of N_a N_c is (1 + delta_ac) V/20 in a tetrahedron, V/12 in a triangle, and all
+   * around an axis (3 + r_a/r + r_c/r)/5 times that. */
+  Octet
+  Recovery::product(const Field &x, const Field &y, const std::size_t cell) const
+  {
+    const std::array<Octet, 4> d = differences(x, cell), e = differences(y, cell);
+    const double share = geometry[cell].volume / (n_nodes * (n_nodes + 1));
+    Octet sum{}, all_d{}, all_e{};
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      {
+        all_d.lanes += d[a].lanes;
+        all_e.lanes += e[a].lanes;
+      }
+    if (!body.mesh.section.axisymmetric())
+      {
+        sum.lanes = all_d.lanes * all_e.lanes;
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          sum.lanes += d[a].lanes * e[a].lanes;
+        sum.lanes *= share;
+        return sum;
+      }
+    const std::array<double, 3> r = nodal_radii(cell);
+    sum.lanes                     = 3. * all_d.lanes * all_e.lanes;
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      sum.lanes += (3. + 2. * r[a]) * d[a].lanes * e[a].lanes +
+                   r[a] * (d[a].lanes * all_e.lanes + all_d.lanes * e[a].lanes);
+    sum.lanes *= 0.2 * share;
+    return sum;
+  }
+
+
+  Octet
+  Recovery::mean_difference(const Field &x, const std::size_t cell) const
+  {
+    const std::array<Octet, 4> d = differences(x, cell);
+    Octet mean{};
+    if (!body.mesh.section.axisymmetric())
+      {
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          mean.lanes += d[a].lanes;
+        mean.lanes /= n_nodes;
+        return mean;
+      }
+    const std::array<double, 3> r = nodal_radii(cell);
+    for (unsigned int a = 0; a < 3; ++a)
+      mean.lanes += (3. + r[a]) / 12. * d[a].lanes;
+    return mean;
+  }
+} // namespace Supple

@@ -1,0 +1,138 @@
+#include <supple/observe/space_error.h>
+
+#include <supple/observe/stress_jumps.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace Supple
+{
+  using namespace dealii;
+
+  double
+  EnergyError::relative_norm() const
+  {
+    return std::sqrt(square / (2. * strain_energy + square));
+  }
+
+
+  double
+  EnergyError::of_energy() const
+  {
+    return std::max(0., square + of_patches);
+  }
+
+
+  double
+  EnergyError::of_work() const
+  {
+    return of_energy() / (2. * strain_energy + of_energy());
+  }
+
+
+  double
+  EnergyError::of_frequency() const
+  {
+    return std::sqrt(1. + of_energy() / (2. * strain_energy)) - 1.;
+  }
+
+
+  SpaceError::SpaceError(const Configuration &configuration, const ElasticForce &elastic)
+    : recovery(configuration.body)
+    , configuration(configuration)
+    , elastic(elastic)
+  {
+  }
+
+
+  bool
+  SpaceError::may_lock() const
+  {
+    constexpr double safe = 0.4; // Poisson's ratio
+    return configuration.body.largest_poisson() > safe &&
+           configuration.body.mesh.section.geometry != Geometry::plane_stress;
+  }
+
+
+  const EnergyError &
+  SpaceError::estimate()
+  {
+    const Body &body = configuration.body;
+    stress.emplace(configuration, elastic.cell_law());
+    field = recovery.recover(std::move(stress->turned));
+    find_indicators();
+
+    const Deformation deformation  = elastic.deformation(configuration);
+    const std::vector<double> here = {std::accumulate(squares.begin(), squares.end(), 0.),
+                                      part_of_patches(),
+                                      deformation.elastic,
+                                      double(deformation.inverted)};
+    std::vector<double> sums(here.size());
+    Utilities::MPI::sum(here, body.mesh.communicator, sums);
+    error = {sums[0], sums[1], sums[2], {}, static_cast<unsigned int>(sums[3])};
+    if (may_lock() && error.square > 0.)
+      error.lock_ratio = std::sqrt(jump_estimate(body, stress->piola) / error.square);
+    return error;
+  }
+
+
+  void
+  SpaceError::find_indicators()
+  {
+    const Body &body = configuration.body;
+    std::map<unsigned int, Octet> compliances; // by material id
+    for (const auto &[id, n_cells] : body.mesh.materials)
+      {
+        const IsotropicMaterial &material = body.material(id);
+        Octet &compliance                 = compliances[id];
+        for (unsigned int k = 0; k < 8; ++k)
+          compliance.lanes[k] = k < 6 ? 0.5 / material.mu : k == 6 ? 1. / material.bulk() : 0.;
+      }
+    squares.assign(body.cell_nodes.size(), 0.);
+    auto compliance = compliances.begin(); // of the cell before
+    for (std::size_t c = 0; c < squares.size(); ++c)
+      {
+        if (!body.cell_owned[c])
+          continue;
+        if (compliance->first != body.cell_material[c])
+          compliance = compliances.find(body.cell_material[c]);
+        Octet energy = recovery.product(field, field, c);
+        energy.lanes *= compliance->second.lanes;
+        for (unsigned int k = 0; k < 7; ++k)
+          squares[c] += energy.lanes[k];
+      }
+  }
+
+
+  double
+  SpaceError::part_of_patches() const
+  {
+    if (!configuration.patches)
+      return 0.;
+    const Body &body = configuration.body;
+    const GhostValues u(configuration.displacement());
+    const auto growth = configuration.patches->growth(u.data());
+    double sum        = 0.;
+    for (std::size_t c = 0; c < growth.size(); ++c)
+      if (body.cell_owned[c])
+        sum -= 2. * recovery.volume(c) * recovery.mean_difference(field, c).lanes[6] *
+               (growth[c].cell - growth[c].patch);
+    return sum;
+  }
+
+
+  std::vector<float>
+  SpaceError::of_cells() const
+  {
+    const Body &body  = configuration.body;
+    const double mean = (2. * error.strain_energy + error.square) / body.mesh.volume;
+    std::vector<float> of_cells(body.mesh.parts->n_cells);
+    for (std::size_t c = 0; c < squares.size(); ++c)
+      of_cells[body.cell_index[c]] = std::sqrt(squares[c] / recovery.volume(c) / mean);
+    return of_cells;
+  }
+} // namespace Supple

@@ -1,0 +1,250 @@
+#include <supple/run/space_estimate.h>
+
+#include <supple/base/error.h>
+#include <supple/base/text.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace Supple
+{
+  namespace
+  {
+    // Errors by jumps over those by recovery: from here on cells lock, and from here on the
+    // estimate is far too small.
+    constexpr double locks = 2., locks_fast = 5.;
+
+    // A relative error beyond which numbers mean little.
+    constexpr double largest_told = 0.5;
+
+    // Below it other errors are larger.
+    constexpr double least_told = 1e-4;
+
+    const std::string cure   = "Material/Volumetric locking cure = patches";
+    const std::string forces = "the forces that move it";
+
+
+    std::string
+    percent(const double part)
+    {
+      return digits(100. * part, 2) + " %";
+    }
+
+
+    /** "about 45 % of tip.uz", "more than 50 % of tip.uz" */
+    std::string
+    part_of(const double part, const bool at_least, const std::string &whole)
+    {
+      if (!(part <= largest_told))
+        return "more than " + percent(largest_told) + " of " + whole;
+      if (part < least_told)
+        return "less than " + percent(least_told) + " of " + whole;
+      return (at_least ? "more than " : "about ") + percent(part) + " of " + whole;
+    }
+  } // namespace
+
+
+  std::string
+  SpaceErrors::in_words() const
+  {
+    const bool lock        = energy.lock_ratio.value_or(0.) > locks;
+    const std::string mesh = lock ? " (mesh; cells lock)" : " (mesh)";
+    if (!probes.empty() && of != forces)
+      return "in space " + part_of(std::abs(probes.front().relative()), lock, probes.front().name) +
+             mesh;
+    if (!unknown.empty())
+      return "in space unknown, for " + unknown;
+    if (stationary || energy.of_work() > largest_told)
+      return "in space " + part_of(energy.of_work(), lock, of) + mesh;
+    return "in space a swing too quick by " + std::string(lock ? "more than " : "") +
+           percent(energy.of_frequency()) + mesh;
+  }
+
+
+  std::vector<std::string>
+  SpaceErrors::warnings() const
+  {
+    const double ratio = energy.lock_ratio.value_or(0.);
+    if (ratio <= locks)
+      return {};
+    return {
+      "The cells lock: stress goes up and down from cell to cell, " + digits(ratio, 2) +
+      " times as much as its recovery explains (about 1 is right, doc/error.md). The error in "
+      "space is " +
+      (ratio > locks_fast ? "unknown and large" : "more than the estimate") + "; " + cure +
+      " helps."};
+  }
+
+
+  nlohmann::ordered_json
+  SpaceErrors::to_json() const
+  {
+    nlohmann::ordered_json json = {{"time", time}};
+    if (!unknown.empty())
+      json["unknown"] = unknown;
+    else if (energy.of_work() > largest_told)
+      json["more_than"] = largest_told;
+    else
+      json.update({{"energy", energy.relative_norm()},
+                   {"work", energy.of_work()},
+                   {"frequency", energy.of_frequency()}});
+    if (json.contains("work") && of == forces)
+      json["forces"] = -energy.of_work();
+    if (energy.lock_ratio)
+      json["lock_ratio"] = *energy.lock_ratio;
+    for (const ProbeError &probe : probes)
+      if (std::abs(probe.relative()) <= largest_told)
+        json["probes"][probe.name] = probe.relative();
+      else
+        json["probes"][probe.name] = nullptr;
+    if (!probes_unknown.empty())
+      json["probes_unknown"] = probes_unknown;
+    return json;
+  }
+
+
+  SpaceEstimate::SpaceEstimate(Problem &problem,
+                               const TimeIntegrator &integrator,
+                               const Probes &probes,
+                               const std::function<bool(const Measurement &)> &frame_due)
+    : problem(problem)
+    , integrator(integrator)
+    , probes(probes)
+    , frame_due(frame_due)
+  {
+  }
+
+
+  void
+  SpaceEstimate::begin(const Observation &now, const bool resumed)
+  {
+    if (!resumed || now.last)
+      after_step(now);
+  }
+
+
+  bool
+  SpaceEstimate::after_step(const Observation &now)
+  {
+    const bool each = problem.parameters.space.estimate == SpaceParameters::Estimate::frames;
+    if (!now.last && !(each && frame_due(now.measurement)))
+      return true;
+    const PhaseTimer timer(problem.effort, Phase::diagnostics);
+    const auto start         = std::chrono::steady_clock::now();
+    const SpaceErrors errors = estimate(now);
+    const bool known         = errors.unknown.empty();
+    cell_errors.step         = now.measurement.step;
+    cell_errors.of_cells     = known ? space_error->of_cells() : std::vector<float>();
+    of_work = known ? errors.energy.of_work() : std::numeric_limits<double>::quiet_NaN();
+    if (now.last)
+      last = errors;
+    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return true;
+  }
+
+
+  double
+  SpaceEstimate::of_work_after(const unsigned int step) const
+  {
+    return cell_errors.step == step ? of_work : std::numeric_limits<double>::quiet_NaN();
+  }
+
+
+  SpaceErrors
+  SpaceEstimate::estimate(const Observation &now)
+  {
+    const Configuration &configuration = problem.configuration;
+    SpaceErrors errors;
+    errors.time       = now.measurement.time;
+    errors.stationary = problem.stationary;
+    if (!problem.forces.have_energy())
+      {
+        errors.unknown = "the forces have no elastic energy";
+        return errors;
+      }
+    if (!space_error)
+      {
+        space_error = std::make_unique<SpaceError>(configuration, problem.forces.elastic());
+        points      = std::make_unique<PointForces>(problem.body,
+                                               problem.constraints,
+                                               problem.parameters.loads,
+                                               problem.parameters.file);
+        problem.body.initialize(loads);
+      }
+    problem.forces.set_loads(loads, configuration, problem.stationary ? 1. : errors.time);
+    errors.energy     = space_error->estimate();
+    errors.unknown    = obstacle(errors.energy, now.measurement.kinetic);
+    const bool moved  = body_is_moved();
+    const bool loaded = loads.l2_norm() > 0.;
+    errors.of         = "the elastic energy";
+    if (problem.stationary && moved != loaded)
+      errors.of = moved ? forces : "the work of the loads";
+    if (now.last && problem.stationary && errors.unknown.empty())
+      add_probes(errors);
+    if (errors.unknown.empty() && points->matter(integrator.reactions(), loads))
+      errors.unknown =
+        "a force acts at a point or along a line, where the exact strain energy is "
+        "infinite";
+    return errors;
+  }
+
+
+  bool
+  SpaceEstimate::body_is_moved() const
+  {
+    const Vector &u                       = problem.configuration.displacement();
+    const std::vector<unsigned int> &held = problem.constraints.owned();
+    const bool here = std::any_of(held.begin(), held.end(), [&](const unsigned int dof) {
+      return u.local_element(dof) != 0.;
+    });
+    return dealii::Utilities::MPI::max(here ? 1 : 0, problem.mesh.communicator) > 0;
+  }
+
+
+  std::string
+  SpaceEstimate::obstacle(const EnergyError &energy, const double kinetic) const
+  {
+    constexpr double round_off = 1e-12; // of strains
+    constexpr double little    = 1e-9;  // of the kinetic energy
+
+    if (energy.inverted > 0)
+      return std::to_string(energy.inverted) + (energy.inverted == 1 ? " cell is" : " cells are") +
+             " inside out";
+    double stiffness = 0.;
+    for (const auto &[id, n_cells] : problem.mesh.materials)
+      stiffness = std::max(stiffness, problem.body.material(id).mu);
+    const double least = round_off * round_off * stiffness * problem.mesh.volume;
+    if (!(energy.strain_energy > std::max(least, little * kinetic)))
+      return "the body has no strain energy to speak of";
+    if (energy.lock_ratio.value_or(0.) > locks_fast)
+      return "the cells lock; " + cure + " helps";
+    return "";
+  }
+
+
+  void
+  SpaceEstimate::add_probes(SpaceErrors &errors)
+  {
+    if (probes.empty())
+      return;
+    try
+      {
+        ProbeErrors duals(*space_error,
+                          problem.configuration,
+                          problem.forces,
+                          problem.implicit_operator,
+                          *problem.solver,
+                          problem.effort);
+        errors.probes = duals.find(probes, *points);
+      }
+    catch (const ComputationError &error)
+      {
+        errors.probes_unknown = error.what();
+      }
+  }
+} // namespace Supple
