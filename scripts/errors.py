@@ -55,8 +55,10 @@ def in_time(summary):
     estimate = summary["error_estimate"]
     if "step_doubling" not in estimate:
         return ""
-    relative = estimate["step_doubling"]["relative"]
-    return percent(relative) if relative is not None else "unknown"
+    doubling = estimate["step_doubling"]
+    if doubling.get("relative") is None:
+        return "unknown"
+    return ("more than " if doubling.get("at_least") else "") + percent(doubling["relative"])
 
 
 def in_space(summary, static):
