@@ -69,6 +69,11 @@ namespace Supple
     if (base.mesh.shape != Shape::box && base.mesh.shape != Shape::rectangle)
       throw InputError(base.origin("Mesh/Shape") +
                        ": an identification changes the layers of a box or a rectangle.");
+    for (const char *entry : {"Mesh/Refine", "Space/Aim"})
+      if (base.changes(entry))
+        throw InputError(base.origin(entry) +
+                         ": the runs of an identification are compared on one mesh; refine it by "
+                         "Mesh/Refine region, or not at all.");
     if (base.material.constants != MaterialParameters::Constants::young_poisson)
       throw InputError(base.origin("Material/Elastic constants") +
                        ": an identification needs Young modulus and Poisson ratio.");

@@ -190,6 +190,7 @@ namespace Supple
     declare_rectangle(prm);
     declare_layers(prm);
     declare_file(prm);
+    refinement.declare(prm);
     prm.leave_subsection();
   }
 

@@ -138,7 +138,21 @@ namespace Supple
 
 
   double
-  ProbeErrors::error_by_dual() const
+  ProbeErrors::weight(const MatrixField &gradient, const std::size_t cell) const
+  {
+    const auto square = [&](const MatrixField &x) {
+      const Octet most = space_error.recovery.product(x[0], x[0], cell);
+      double sum       = space_error.recovery.product(x[1], x[1], cell).lanes[0];
+      for (unsigned int k = 0; k < 8; ++k)
+        sum += most.lanes[k];
+      return sum;
+    };
+    return std::sqrt(square(stress) * square(gradient));
+  }
+
+
+  double
+  ProbeErrors::error_by_dual()
   {
     const Body &body         = configuration.body;
     const Recovery &recovery = space_error.recovery;
@@ -151,11 +165,13 @@ namespace Supple
       mean_of_dual.push_back(body.material(body.cell_material[c]).bulk() * growth_of_dual[c].patch);
     const MatrixField gradient = recover(dual_gradient(z.data(), growth_of_dual), mean_of_dual);
 
+    weights.assign(body.cell_nodes.size(), 0.);
     double sum = 0.;
     for (std::size_t c = 0; c < body.cell_nodes.size(); ++c)
       {
         if (!body.cell_owned[c])
           continue;
+        weights[c]       = weight(gradient, c);
         const Octet most = recovery.product(stress[0], gradient[0], c);
         for (unsigned int k = 0; k < 8; ++k)
           sum += most.lanes[k];
@@ -172,11 +188,13 @@ namespace Supple
 
 
   std::vector<ProbeError>
-  ProbeErrors::find(const Probes &probes, const PointForces &points)
+  ProbeErrors::find(const Probes &probes, const PointForces &points, const std::string &only)
   {
     std::vector<ProbeError> errors;
     for (const auto &[component, value] : chosen(probes, points))
       {
+        if (!only.empty() && component.name != only)
+          continue;
         solve(component);
         errors.push_back({component.name, value, error_by_dual()});
       }

@@ -16,6 +16,20 @@ namespace Supple
       "When the error that the mesh makes is estimated from the stress (doc/error.md). end: in the "
       "last state, for the end of the run, summary.json and the last frame. frames: at each frame "
       "too, with a field of the cells in the frames and a column in history.csv.");
+    Entries::add(
+      prm,
+      "Aim",
+      aim,
+      "1",
+      Range("0, or a number greater than 0 and less than 1",
+            [](const std::string &text) {
+              return text == "0" || Range::between(0, 1).match(text);
+            }),
+      "Of a static scene, such as 0.01: it is run again and again, on a mesh refined as "
+      "by Mesh/Refine, until the relative error in space of that quantity is estimated to "
+      "be no more than this; with Refine so many times at most. Without Refine: of the "
+      "displacement of a probe that moves most, or of the energy if there is no probe. 0: "
+      "one run.");
     prm.leave_subsection();
   }
 } // namespace Supple

@@ -84,6 +84,14 @@ namespace Supple
         Range::one_of("true|false"),
         "Whether report.html, a page with the moving body and its history, is written at the end, "
         "from the frames and tables there are.");
+    add(
+      prm,
+      "Mesh",
+      mesh,
+      "none",
+      Range::one_of("true|false"),
+      "Whether mesh.msh is written: the body at rest with the mesh of the run, as it was refined, "
+      "with its ids and names, in m, for Gmsh, meshio or Mesh/File.");
     prm.leave_subsection();
   }
 

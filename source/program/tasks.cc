@@ -2,6 +2,7 @@
 
 #include <supple/identification/identification.h>
 #include <supple/program/parameter_reference.h>
+#include <supple/run/adaptation.h>
 #include <supple/run/simulation.h>
 #include <supple/scene/read_scene.h>
 #include <supple/study/study.h>
@@ -26,6 +27,16 @@ namespace Supple
         task.run();
       else
         task.check();
+    }
+    /** With the mesh that its pilot runs find, if it is to be run. */
+    Parameters
+    scene_of(const CommandLine &line, const MPI_Comm communicator)
+    {
+      const Parameters scene = read_scene(line.scene, line.overrides);
+      if (line.action == CommandLine::Action::run)
+        return adapted(scene, !line.quiet, communicator);
+      check_adaptation(scene, communicator);
+      return scene;
     }
   } // namespace
 
@@ -60,7 +71,7 @@ namespace Supple
                                          IdentificationParameters::read(line.scene, line.overrides),
                                          communicator);
           else
-            run_or_check<Simulation>(line, read_scene(line.scene, line.overrides), communicator);
+            run_or_check<Simulation>(line, scene_of(line, communicator), communicator);
       }
   }
 } // namespace Supple

@@ -169,6 +169,9 @@ namespace Supple
       line("probe", text);
     if (in_detail)
       line("error", errors_in_words());
+    if (in_detail && !problem.parameters.mesh.refinement.by.empty())
+      line("refinement",
+           "a run refines the mesh " + problem.parameters.mesh.refinement.by + " before");
     if (course.resumed())
       line("resumed", "goes on from " + course.origin);
     for (const std::string &text : warnings())

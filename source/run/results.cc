@@ -2,6 +2,8 @@
 
 #include <supple/base/files.h>
 #include <supple/base/first_process.h>
+#include <supple/mesh/msh_writer.h>
+#include <supple/mesh/whole_mesh.h>
 #include <supple/report/report.h>
 #include <supple/report/report_page.h>
 
@@ -16,7 +18,8 @@ namespace Supple
   namespace
   {
     const std::string summary_file = "summary.json";
-  }
+    const std::string mesh_file    = "mesh.msh";
+  } // namespace
 
 
   Results::Results(const std::string &folder,
@@ -29,7 +32,7 @@ namespace Supple
     , parameters(parameters)
     , communicator(communicator)
     , writes_report(parameters.output.report && (writes_history || writes_frames))
-    , own_files({summary_file, page_file})
+    , own_files({summary_file, mesh_file, page_file})
   {
   }
 
@@ -58,6 +61,10 @@ namespace Supple
       if (!resumed)
         remove_files(folder, own_files);
       write_whole_file(folder + "/parameters.prm", parameters.as_used);
+      if (parameters.output.mesh)
+        write_whole_file(folder + "/" + mesh_file,
+                         msh_text(
+                           whole_mesh(parameters.mesh, parameters.plane, parameters.file).mesh));
       for (const auto &writer : writers)
         writer->open(resumed, step);
     });

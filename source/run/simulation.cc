@@ -2,6 +2,7 @@
 
 #include <supple/base/error.h>
 #include <supple/base/expression.h>
+#include <supple/base/text.h>
 #include <supple/time/create_integrator.h>
 
 #include <deal.II/base/mpi.h>
@@ -15,6 +16,29 @@
 namespace Supple
 {
   using namespace dealii;
+
+  namespace
+  {
+    /** That the mesh was refined as often as was allowed, and not often enough; or empty. */
+    std::string
+    missed_aim(const Parameters &scene, const std::optional<SpaceErrors> &errors)
+    {
+      const auto &pilots = scene.mesh.refinement.pilots;
+      if (scene.space.aim == 0. || pilots.empty() || pilots.back().error <= scene.space.aim ||
+          !errors)
+        return "";
+      double error = errors->energy.of_work();
+      for (const ProbeError &probe : errors->probes)
+        if (probe.name == pilots.back().of)
+          error = std::abs(probe.relative());
+      if (error <= scene.space.aim)
+        return "";
+      return scene.origin("Space/Aim") + ": after " + std::to_string(pilots.size()) +
+             " refinements the error of " + pilots.back().of + " is still about " +
+             digits(100. * error, 2) + " %; Mesh/Refine allows no more of them.";
+    }
+  } // namespace
+
 
   Simulation::Simulation(const Parameters &scene,
                          const std::string &folder,
@@ -85,6 +109,13 @@ namespace Supple
                                            [this](const Measurement &now) {
                                              return frames && frames->written().due(now);
                                            });
+  }
+
+
+  std::unique_ptr<CellIndicators>
+  Simulation::make_indicators(const std::string &quantity)
+  {
+    return std::make_unique<CellIndicators>(problem, *integrator, probes, quantity);
   }
 
 
@@ -357,6 +388,9 @@ namespace Supple
     if (summary.space_errors)
       for (const std::string &text : summary.space_errors->warnings())
         summary.warnings.push_back(text);
+    const std::string missed = missed_aim(problem.parameters, summary.space_errors);
+    if (!missed.empty())
+      summary.warnings.push_back(missed);
     summary.frames   = frames ? frames->written().n_written() : 0;
     summary.history  = results.writes_history;
     summary.probes   = results.writes_history && !probes.empty();

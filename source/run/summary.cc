@@ -193,6 +193,21 @@ namespace Supple
     }
 
 
+    /** Not a number becomes null. */
+    Json
+    refinement(const std::vector<RefinementParameters::Pilot> &pilots)
+    {
+      Json list;
+      for (const RefinementParameters::Pilot &pilot : pilots)
+        list.push_back({{"cells", pilot.cells},
+                        {"dofs", pilot.dofs},
+                        {"of", pilot.of},
+                        {"error", pilot.error},
+                        {"seconds", pilot.seconds}});
+      return list;
+    }
+
+
     void
     add_steps(Json &json, const Summary &summary)
     {
@@ -216,6 +231,7 @@ namespace Supple
     , effort(model.effort)
     , has_mass(model.implicit_operator.has_mass())
     , damped(model.damping.any())
+    , pilots(parameters.mesh.refinement.pilots)
   {
     solver = {model.solver.name(),
               model.solver.reason,
@@ -257,6 +273,8 @@ namespace Supple
     add_steps(json, *this);
     if (spread)
       add_spread(json, *spread);
+    if (!pilots.empty())
+      json["pilot_runs"] = refinement(pilots);
     if (has_mass)
       json["error_estimate"] = errors(*this);
     if (space_errors)

@@ -28,9 +28,10 @@ namespace Supple
 
 
     std::vector<Rule>
-    rules_of_mesh(const MeshParameters &mesh)
+    rules_of_mesh(const MeshParameters &mesh, const SpaceParameters &space)
     {
-      using Shape = MeshParameters::Shape;
+      using Shape                            = MeshParameters::Shape;
+      const RefinementParameters &refinement = mesh.refinement;
       return {
         {mesh.shape != Shape::file, "Mesh/Shape is not file.", {"Mesh/File", "Mesh/Scale"}},
         {mesh.shape != Shape::box,
@@ -50,6 +51,15 @@ namespace Supple
           "Mesh/Cylinder sectors",
           "Mesh/Cylinder rings",
           "Mesh/Cylinder layers"}},
+        {refinement.region.empty(),
+         "Mesh/Refine region is empty.",
+         {"Mesh/Refine region times", "Mesh/Refine region size"}},
+        {!refinement.region.empty() && refinement.region_size > 0.,
+         "Mesh/Refine region size says how far cells are cut.",
+         {"Mesh/Refine region times"}},
+        {refinement.region.empty() && refinement.by.empty() && space.aim == 0.,
+         "nothing is refined.",
+         {"Mesh/Refine most cells"}},
       };
     }
 
@@ -140,7 +150,7 @@ namespace Supple
         rules.push_back({scene.motions[m].of.empty(),
                          motion_section(m) + "/Of, which says what moves, is empty.",
                          {motion_section(m) + "/Displacement"}});
-      for (const auto &more : {rules_of_mesh(scene.mesh),
+      for (const auto &more : {rules_of_mesh(scene.mesh, scene.space),
                                rules_of_loads(scene.loads, scene.start),
                                rules_of_material(scene),
                                rules_of_time(scene.time),

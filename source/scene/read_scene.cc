@@ -67,7 +67,13 @@ namespace Supple
           parameters.origin("Time/Method") +
           ": an explicit method needs a diagonal mass matrix: Material/Mass = lumped.");
       if (time.problem != TimeParameters::Problem::stationary)
-        return;
+        {
+          if (parameters.space.aim > 0.)
+            throw InputError(parameters.origin("Space/Aim") +
+                             ": only a static scene can aim at an error in space (Time/Problem = "
+                             "static); a dynamic one can be refined so many times (Mesh/Refine).");
+          return;
+        }
       if (parameters.damping.any())
         throw InputError(
           parameters.origin("Time/Problem") +

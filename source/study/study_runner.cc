@@ -1,6 +1,7 @@
 #include <supple/study/study_runner.h>
 
 #include <supple/base/error.h>
+#include <supple/run/adaptation.h>
 #include <supple/run/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -62,15 +63,41 @@ namespace Supple
   void
   StudyRunner::check(const Parameters &parameters) const
   {
+    check_adaptation(parameters, communicator);
     Simulation(parameters, "", true, communicator).check();
+  }
+
+
+  double
+  StudyRunner::seconds_of(const Summary &summary) const
+  {
+    double seconds = summary.run_seconds;
+    for (const RefinementParameters::Pilot &pilot : summary.pilots)
+      seconds += pilot.seconds;
+    return dealii::Utilities::MPI::max(seconds, communicator);
   }
 
 
   StudyRecord
   StudyRunner::record(const Parameters &parameters, const std::string &folder) const
   {
-    Simulation simulation(parameters, folder, true, communicator);
     StudyRecord record;
+    Parameters scene;
+    try
+      {
+        scene = adapted(parameters, false, communicator);
+      }
+    catch (const InterruptedError &)
+      {
+        throw;
+      }
+    catch (const ComputationError &error)
+      {
+        record.status = StudyRecord::Status::failed;
+        record.reason = error.what();
+        return record;
+      }
+    Simulation simulation(scene, folder, true, communicator);
 
     Recorder recorder(wanted, simulation.probe_columns(), record);
     try
@@ -97,7 +124,7 @@ namespace Supple
     record.steps           = summary.steps;
     record.rejected        = summary.effort.rejected_steps;
     record.failed          = summary.effort.failed_steps;
-    record.seconds         = dealii::Utilities::MPI::max(summary.run_seconds, communicator);
+    record.seconds         = seconds_of(summary);
     if (summary.has_mass)
       record.largest_motion = summary.largest_motion;
     return record;
@@ -110,10 +137,9 @@ namespace Supple
     std::vector<double> seconds;
     for (unsigned int i = 0; i < repeats; ++i)
       {
-        Simulation simulation(parameters, "", true, communicator);
+        Simulation simulation(adapted(parameters, false, communicator), "", true, communicator);
         simulation.run();
-        seconds.push_back(
-          dealii::Utilities::MPI::max(simulation.summary().run_seconds, communicator));
+        seconds.push_back(seconds_of(simulation.summary()));
       }
     std::sort(seconds.begin(), seconds.end());
     const std::size_t middle = seconds.size() / 2;

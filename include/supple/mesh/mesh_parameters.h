@@ -2,6 +2,7 @@
 #define supple_mesh_parameters_h
 
 #include <supple/input/parameter_file.h>
+#include <supple/mesh/refinement_parameters.h>
 #include <supple/mesh/section.h>
 
 #include <deal.II/base/point.h>
@@ -57,6 +58,8 @@ namespace Supple
     double scale = 1.;
     std::string boundary_regions;
     std::string map; ///< where vertices are put; empty: they stay
+
+    RefinementParameters refinement;
 
     void
     declare(dealii::ParameterHandler &prm);

@@ -60,9 +60,18 @@ namespace Supple
     /**
      * Those of components that move, are not held and carry no nodal force of their own; the one
      * that moves most comes first. Collective. @throws ComputationError
+     * @param only the name of one of them, or empty: all
      */
     std::vector<ProbeError>
-    find(const Probes &probes, const PointForces &points);
+    find(const Probes &probes, const PointForces &points, const std::string &only = "");
+
+    /** What each cell of the body can add to the last error that was found: the root of the
+     * integral of (P* - P)^2 times that of (G* - G)^2 [J/N]; zero of cells of other processes. */
+    const std::vector<double> &
+    of_body_cells() const
+    {
+      return weights;
+    }
 
   private:
     /** Nine entries of a matrix of each cell, with one more number, in two fields. */
@@ -87,8 +96,13 @@ namespace Supple
     std::vector<Matrix3<Pack>>
     dual_gradient(const double *z, const std::vector<VolumetricPatches::Growth> &growth) const;
 
+    /** Sets the weights too. */
     double
-    error_by_dual() const;
+    error_by_dual();
+
+    /** The weight of a cell. */
+    double
+    weight(const MatrixField &gradient, std::size_t cell) const;
 
     const SpaceError &space_error;
     const Configuration &configuration;
@@ -98,6 +112,7 @@ namespace Supple
     const MatrixField stress;                      ///< P
     std::vector<VolumetricPatches::Growth> growth; ///< theta, Theta; empty without patches
     Vector load, dual;                             ///< e, z
+    std::vector<double> weights;                   ///< of the cells of the body
   };
 } // namespace Supple
 

@@ -90,6 +90,13 @@ namespace Supple
     std::vector<float>
     of_cells() const;
 
+    /** eta_e^2 of the cells of the body [J]; zero of those of other processes. */
+    const std::vector<double> &
+    of_body_cells() const
+    {
+      return squares;
+    }
+
     const Recovery recovery;
 
   private:

@@ -16,6 +16,7 @@ namespace Supple
     };
 
     Estimate estimate = Estimate::end;
+    double aim        = 0.; ///< relative error of a static scene; 0: none
 
     void
     declare(dealii::ParameterHandler &prm);

@@ -27,6 +27,7 @@ namespace Supple
     double interval            = 0.1;
     bool history               = true;
     bool report                = true;
+    bool mesh                  = false;
 
     void
     declare(dealii::ParameterHandler &prm);

@@ -5,6 +5,7 @@
 #include <supple/observe/diagnostics.h>
 #include <supple/observe/probes.h>
 #include <supple/observe/profiles.h>
+#include <supple/run/cell_indicators.h>
 #include <supple/run/checkpoints.h>
 #include <supple/run/course.h>
 #include <supple/run/description.h>
@@ -82,6 +83,12 @@ namespace Supple
     {
       return probes.column_names();
     }
+
+    /** A guest of the run that finds where the mesh is too coarse. It must not outlive this.
+     * @param quantity energy or a column of probes.csv
+     * @throws InputError if the scene can't be refined by that */
+    std::unique_ptr<CellIndicators>
+    make_indicators(const std::string &quantity);
 
     /** What summary.json tells; to be called after the run. */
     const Summary &

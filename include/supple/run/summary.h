@@ -1,6 +1,7 @@
 #ifndef supple_summary_h
 #define supple_summary_h
 
+#include <supple/mesh/refinement_parameters.h>
 #include <supple/observe/measurement.h>
 #include <supple/run/space_estimate.h>
 #include <supple/run/step_doubling.h>
@@ -84,6 +85,7 @@ namespace Supple
     double largest_motion             = 0.;      ///< of a vertex from its place at the start [m]
     const StepDoubling *step_doubling = nullptr; ///< if there is a second run
     std::optional<SpaceErrors> space_errors;     ///< if they were estimated
+    std::vector<RefinementParameters::Pilot> pilots; ///< runs that refined the mesh
     unsigned int frames = 0;
     bool history        = false;
     bool probes         = false;

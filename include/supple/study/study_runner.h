@@ -9,6 +9,8 @@
 
 namespace Supple
 {
+  struct Summary;
+
   /** Runs scenes for a study. */
   class StudyRunner
   {
@@ -35,6 +37,11 @@ namespace Supple
     time(const Parameters &parameters, unsigned int repeats) const;
 
   private:
+    /** Run time, and that of the pilot runs that refined the mesh; largest over all processes [s].
+     */
+    double
+    seconds_of(const Summary &summary) const;
+
     const std::set<std::string> wanted;
     const MPI_Comm communicator;
   };

@@ -1,0 +1,144 @@
+#include <supple/run/adaptation.h>
+
+#include <supple/base/error.h>
+#include <supple/base/progress.h>
+#include <supple/base/text.h>
+#include <supple/run/simulation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <limits>
+
+namespace Supple
+{
+  namespace
+  {
+    using Pilot = RefinementParameters::Pilot;
+
+
+    bool
+    asks_for_pilots(const Parameters &scene)
+    {
+      return !scene.mesh.refinement.by.empty() || scene.space.aim > 0.;
+    }
+
+
+    /** The scene without what a pilot run does not need. */
+    Parameters
+    pilot_scene(const Parameters &scene)
+    {
+      Parameters pilot          = scene;
+      pilot.time.estimate_error = false;
+      pilot.space.estimate      = SpaceParameters::Estimate::never;
+      return pilot;
+    }
+
+
+    Pilot
+    fly(const Parameters &scene, const std::string &quantity, const MPI_Comm communicator)
+    {
+      const auto start = std::chrono::steady_clock::now();
+      Simulation simulation(pilot_scene(scene), "", true, communicator);
+      const std::unique_ptr<CellIndicators> indicators = simulation.make_indicators(quantity);
+      simulation.run(indicators.get());
+      Pilot pilot;
+      pilot.cells  = simulation.summary().size.cells;
+      pilot.dofs   = simulation.summary().size.dofs;
+      pilot.of     = indicators->of();
+      pilot.error  = indicators->error();
+      pilot.marked = indicators->cells_to_cut();
+      pilot.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      return pilot;
+    }
+
+
+    std::string
+    error_in_words(const Pilot &pilot)
+    {
+      constexpr double largest_told = 0.5;
+      if (!std::isfinite(pilot.error))
+        return "refined by " + pilot.of;
+      if (pilot.error > largest_told)
+        return "in space more than 50 % of " + pilot.of;
+      return "in space about " + digits(100. * pilot.error, 2) + " % of " + pilot.of;
+    }
+
+
+    void
+    print(const Pilot &pilot, const unsigned int number)
+    {
+      std::cout << "pilot run " << number << ": " << pilot.cells << " cells, " << pilot.dofs
+                << " unknowns, " << error_in_words(pilot) << ", "
+                << readable_duration(pilot.seconds) << std::endl;
+    }
+
+
+    /** @throws InputError if the aim can't be told from the run */
+    void
+    require_error(const Pilot &pilot, const Parameters &scene)
+    {
+      if (!std::isfinite(pilot.error))
+        throw InputError(scene.origin("Space/Aim") +
+                         ": the error of the energy is unknown, for a force acts at a point or "
+                         "along a line, where the exact one is infinite. Refine by a probe "
+                         "(Mesh/Refine).");
+    }
+  } // namespace
+
+
+  Parameters
+  adapted(const Parameters &scene, const bool talks, const MPI_Comm communicator)
+  {
+    if (!asks_for_pilots(scene))
+      return scene;
+    const bool root = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+    Parameters fine = scene;
+
+    const RefinementParameters &asked = scene.mesh.refinement;
+    std::vector<Pilot> &pilots        = fine.mesh.refinement.pilots;
+    std::string quantity              = asked.quantity();
+    const unsigned int most =
+      asked.by.empty() ? std::numeric_limits<unsigned int>::max() : asked.n_rounds();
+    const double aim = scene.space.aim;
+    bool goes_on     = true;
+    while (goes_on && pilots.size() < most)
+      {
+        const std::string number = std::to_string(pilots.size() + 1);
+        try
+          {
+            pilots.push_back(fly(fine, quantity, communicator));
+          }
+        catch (const InterruptedError &)
+          {
+            throw;
+          }
+        catch (const ComputationError &error)
+          {
+            throw ComputationError("Pilot run " + number +
+                                   ", which was to refine the mesh: " + error.what());
+          }
+        quantity = pilots.back().of;
+        if (talks && root)
+          print(pilots.back(), pilots.size());
+        if (aim > 0.)
+          require_error(pilots.back(), scene);
+        goes_on = !(pilots.back().error <= aim);
+      }
+    if (!goes_on)
+      pilots.back().marked.clear();
+    return fine;
+  }
+
+
+  void
+  check_adaptation(const Parameters &scene, const MPI_Comm communicator)
+  {
+    if (asks_for_pilots(scene))
+      Simulation(pilot_scene(scene), "", true, communicator)
+        .make_indicators(scene.mesh.refinement.quantity());
+  }
+} // namespace Supple
