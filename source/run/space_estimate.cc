@@ -136,7 +136,9 @@ namespace Supple
       return true;
     const PhaseTimer timer(problem.effort, Phase::diagnostics);
     const auto start         = std::chrono::steady_clock::now();
+    const Effort of_run      = problem.effort;
     const SpaceErrors errors = estimate(now);
+    problem.effort           = of_run; // dual solutions are no part of it
     const bool known         = errors.unknown.empty();
     cell_errors.step         = now.measurement.step;
     cell_errors.of_cells     = known ? space_error->of_cells() : std::vector<float>();
