@@ -23,7 +23,7 @@ def pilots(results):
 
 
 def refused(settings, *words, scene=runner.STATIC, check=False):
-    arguments = ["--check"] if check else ["--output", folder / "none"]
+    arguments = ["--check"] if check else ["--quiet", "--output", folder / "none"]
     message = runner.refused(runner.run(*arguments, scene, *runner.overrides({**QUIET, **settings})), words, f"{settings}")
     runner.check(len(message) < 900 and not (folder / "none").exists(), message)
 
@@ -83,13 +83,13 @@ runner.check(any("Space/Aim" in text and "after 2 refinements" in text for text 
 # Bad input: with a run and with --check.
 for check in (False, True):
     refused({"Mesh/Refine": "3 by tip.uz"}, "Mesh/Refine", "no probe follows tip.uz", "n28.uz", "energy", check=check)
-    refused({"Mesh/Refine": "3 by n28.uy2"}, "did you mean 'n28.uy'?", check=check)
     refused({"Mesh/Refine": "3 by n28.uz", "Probes/Points": "", "Probes/Boundaries": ""}, "has no probes", check=check)
     refused({"Mesh/Refine": "3 by n28.uz"}, "dynamic", "energy", scene=runner.BAR, check=check)
     refused({"Space/Aim": 0.1}, "Space/Aim", "only a static scene", scene=runner.BAR, check=check)
     refused({"Mesh/Refine": "3 by energy", "Corotation/Rotation": "gram-schmidt"}, "no elastic energy", check=check)
-    for text in ("3", "by energy", "0 by energy", "101 by energy", "2 by", "x by energy", "2 by n28.uz energy"):
-        refused({"Mesh/Refine": text}, "Mesh/Refine", "N by QUANTITY", check=check)
+for text in ("3", "by energy", "0 by energy", "101 by energy", "2 by n28.uz energy"):
+    refused({"Mesh/Refine": text}, "Mesh/Refine", "N by QUANTITY")
+refused({"Mesh/Refine": "3 by n28.uy2"}, "did you mean 'n28.uy'?")
 for aim in (1, -0.1, "1 %"):
     refused({"Space/Aim": aim}, "Space/Aim", "greater than 0 and less than 1")
 refused({"Mesh/Refine": "1 by clamp.uz"}, "clamp.uz", "held, does not move")

@@ -47,7 +47,11 @@ class EntryValues:
         if how < 0.25:
             return default
         special = {"Mesh/Map": self.map, "Motion/Displacement": self.motion, "Mesh/Boundary regions": lambda: self.by_id(self.condition),
-                   "Material/By id": lambda: self.by_id(self.material), "Mesh/File": self.file}
+                   "Material/By id": lambda: self.by_id(self.material), "Mesh/File": self.file,
+                   "Mesh/Refine": lambda: self.chance.choice(["1 by energy", "2 by energy", "1 by tip.uz", "2 by x", "energy", ""]),
+                   "Mesh/Refine region times": lambda: self.chance.choice(["1", "2", "0", "100"]),
+                   "Mesh/Refine region size": lambda: self.chance.choice(["0", "0.5", "1", "-1", "1e30"]),
+                   "Mesh/Refine most cells": lambda: self.chance.choice(["1", "500", "5000"])}
         drawn = special.get(re.sub(r"Motion \d", "Motion", entry)) or self.of_kind(kind, now or default)
         return drawn()
 

@@ -83,6 +83,8 @@ class RunFolder:
             needed.add("report.html")
         if history and any(self.parameters[f"Probes/{kind}"] for kind in ("Boundaries", "Points", "Regions")):
             needed.add("probes.csv")
+        if self.on("Output/Mesh"):
+            needed.add("mesh.msh")
         allowed = needed | {"probes.csv", "error.csv"}
         if any(self.parameters[f"Checkpoint/{entry}"] not in ("0", "never") for entry in ("Every", "Minutes", "Resume")):
             allowed |= {"checkpoint.cbor", "checkpoint.previous.cbor", "report.frames"}
