@@ -16,7 +16,8 @@ namespace Supple
   class PointForces
   {
   public:
-    /** @throws InputError, @p scene knows where the entries were set */
+    /** @param scene knows where the entries were set
+     * @throws InputError */
     PointForces(const Body &body,
                 const Constraints &constraints,
                 const LoadParameters &loads,
