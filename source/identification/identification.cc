@@ -4,9 +4,9 @@
 #include <supple/base/files.h>
 #include <supple/base/interrupt.h>
 #include <supple/base/progress.h>
+#include <supple/base/stopwatch.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -85,7 +85,7 @@ namespace Supple
   Identification::run()
   {
     const InterruptGuard interrupt;
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     for (const double thickness : parameters.thicknesses)
       model.check({thickness * table.unit_length, parameters.ratios.front()}, sets);
     open_output();
@@ -110,8 +110,7 @@ namespace Supple
     write();
     for (const std::string &sentence : table.sentences())
       say("  " + sentence);
-    const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - start;
-    say("done in " + readable_duration(duration.count()) + ": " + folder + "/identification.md");
+    say("done in " + readable_duration(stopwatch.seconds()) + ": " + folder + "/identification.md");
   }
 
 

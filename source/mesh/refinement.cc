@@ -15,13 +15,13 @@ namespace Supple
   namespace
   {
     /** A mesh on its way to be refined. */
-    class Refinery
+    class Refiner
     {
     public:
-      Refinery(SerialMesh &mesh,
-               const RefinementParameters &parameters,
-               const BodyShape &shape,
-               const ParameterFile &scene)
+      Refiner(SerialMesh &mesh,
+              const RefinementParameters &parameters,
+              const BodyShape &shape,
+              const ParameterFile &scene)
         : mesh(mesh)
         , parameters(parameters)
         , shape(shape)
@@ -165,9 +165,9 @@ namespace Supple
          const BodyShape &shape,
          const ParameterFile &scene)
   {
-    Refinery refinery(mesh, parameters, shape, scene);
-    refinery.refine_region();
-    refinery.refine_by_pilots();
+    Refiner refiner(mesh, parameters, shape, scene);
+    refiner.refine_region();
+    refiner.refine_by_pilots();
   }
 
 

@@ -41,6 +41,20 @@ namespace Supple
   }
 
 
+  bool
+  EnergyError::locks() const
+  {
+    return lock_ratio.value_or(0.) > 2.;
+  }
+
+
+  bool
+  EnergyError::is_unknown_by_locking() const
+  {
+    return lock_ratio.value_or(0.) > 5.;
+  }
+
+
   SpaceError::SpaceError(const Configuration &configuration, const ElasticForce &elastic)
     : recovery(configuration.body)
     , configuration(configuration)

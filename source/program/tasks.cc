@@ -28,6 +28,8 @@ namespace Supple
       else
         task.check();
     }
+
+
     /** With the mesh that its pilot runs find, if it is to be run. */
     Parameters
     scene_of(const CommandLine &line, const MPI_Comm communicator)

@@ -2,12 +2,12 @@
 
 #include <supple/base/error.h>
 #include <supple/base/progress.h>
+#include <supple/base/stopwatch.h>
 #include <supple/base/text.h>
 #include <supple/run/simulation.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -38,20 +38,19 @@ namespace Supple
 
 
     Pilot
-    fly(const Parameters &scene, const std::string &quantity, const MPI_Comm communicator)
+    run_pilot(const Parameters &scene, const std::string &quantity, const MPI_Comm communicator)
     {
-      const auto start = std::chrono::steady_clock::now();
+      const Stopwatch stopwatch;
       Simulation simulation(pilot_scene(scene), "", true, communicator);
       const std::unique_ptr<CellIndicators> indicators = simulation.make_indicators(quantity);
       simulation.run(indicators.get());
       Pilot pilot;
-      pilot.cells  = simulation.summary().size.cells;
-      pilot.dofs   = simulation.summary().size.dofs;
-      pilot.of     = indicators->of();
-      pilot.error  = indicators->error();
-      pilot.marked = indicators->cells_to_cut();
-      pilot.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      pilot.cells   = simulation.summary().size.cells;
+      pilot.dofs    = simulation.summary().size.dofs;
+      pilot.of      = indicators->of();
+      pilot.error   = indicators->error();
+      pilot.marked  = indicators->cells_to_cut();
+      pilot.seconds = stopwatch.seconds();
       return pilot;
     }
 
@@ -59,11 +58,10 @@ namespace Supple
     std::string
     error_in_words(const Pilot &pilot)
     {
-      constexpr double largest_told = 0.5;
       if (!std::isfinite(pilot.error))
         return "refined by " + pilot.of;
-      if (pilot.error > largest_told)
-        return "in space more than 50 % of " + pilot.of;
+      if (pilot.error > largest_told_error)
+        return "in space more than " + digits(100. * largest_told_error, 2) + " % of " + pilot.of;
       return "in space about " + digits(100. * pilot.error, 2) + " % of " + pilot.of;
     }
 
@@ -110,7 +108,7 @@ namespace Supple
         const std::string number = std::to_string(pilots.size() + 1);
         try
           {
-            pilots.push_back(fly(fine, quantity, communicator));
+            pilots.push_back(run_pilot(fine, quantity, communicator));
           }
         catch (const InterruptedError &)
           {

@@ -22,7 +22,6 @@ namespace Supple
     constexpr unsigned int looks = 20;        ///< over a dynamic run
     constexpr double bulk        = 0.5;       ///< part of the error that marked cells have together
     constexpr double like        = 1. - 1e-3; ///< as much as another one, but for round-off
-    constexpr double locks_fast  = 5.;        ///< as for SpaceEstimate
 
 
     /** Those with the largest indicators that have the bulk of their sum. */
@@ -104,9 +103,15 @@ namespace Supple
   CellIndicators::look(const bool last)
   {
     if (!space_error)
-      space_error = std::make_unique<SpaceError>(problem.configuration, problem.forces.elastic());
+      {
+        space_error = std::make_unique<SpaceError>(problem.configuration, problem.forces.elastic());
+        points      = std::make_unique<PointForces>(problem.body,
+                                               problem.constraints,
+                                               problem.parameters.loads,
+                                               problem.parameters.file);
+      }
     const EnergyError error = space_error->estimate();
-    if (error.lock_ratio.value_or(0.) > locks_fast)
+    if (error.is_unknown_by_locking())
       throw ComputationError(
         "the cells lock, so that their error is not known; "
         "Material/Volumetric locking cure = patches helps");
@@ -129,12 +134,10 @@ namespace Supple
   void
   CellIndicators::look_at_energy(const EnergyError &error)
   {
-    const Parameters &scene = problem.parameters;
-    const PointForces points(problem.body, problem.constraints, scene.loads, scene.file);
     Vector loads;
     problem.body.initialize(loads);
     problem.forces.set_loads(loads, problem.configuration, 1.);
-    if (!points.matter(integrator.reactions(), loads))
+    if (!points->matter(integrator.reactions(), loads))
       relative_error = error.of_work();
   }
 
@@ -143,7 +146,6 @@ namespace Supple
   CellIndicators::look_at_probe()
   {
     const Parameters &scene = problem.parameters;
-    const PointForces points(problem.body, problem.constraints, scene.loads, scene.file);
     ProbeErrors duals(*space_error,
                       problem.configuration,
                       problem.forces,
@@ -152,12 +154,12 @@ namespace Supple
                       problem.effort);
     if (quantity.empty())
       {
-        const std::vector<ProbeError> all = duals.find(probes, points);
+        const std::vector<ProbeError> all = duals.find(probes, *points);
         quantity                          = all.empty() ? energy : all.front().name;
         if (all.empty())
           return look(true);
       }
-    const std::vector<ProbeError> found = duals.find(probes, points, quantity);
+    const std::vector<ProbeError> found = duals.find(probes, *points, quantity);
     if (found.empty())
       throw InputError(
         scene.origin(scene.mesh.refinement.by.empty() ? "Space/Aim" : "Mesh/Refine") + ": " +

@@ -70,30 +70,29 @@ namespace Supple
     if (!problem.parameters.time.estimate_error)
       return nullptr;
     const Parameters scene = StepDoubling::second_scene(problem.parameters);
-    const auto second = std::make_shared<Simulation>(scene, "", true, problem.mesh.communicator);
-    const auto second_run = [second](const double time) {
-      while (second->time() < time * (1. - 1e-12) && !second->finished())
-        second->advance();
-      return StepDoubling::Arrival{second->time(), second->current_state().displacement};
+    const auto third_run   = [this, scene] {
+      return other_run(StepDoubling::second_scene(scene), [this] {
+        if (!interruption.after_step(observation()))
+          throw ComputationError("it was interrupted");
+      });
     };
-    return std::make_unique<StepDoubling>(problem.parameters.time, second_run, [this, scene] {
-      return make_third_run(StepDoubling::second_scene(scene));
-    });
+    return std::make_unique<StepDoubling>(problem.parameters.time,
+                                          other_run(scene, [] {}),
+                                          third_run);
   }
 
 
   StepDoubling::OtherRun
-  Simulation::make_third_run(const Parameters &scene)
+  Simulation::other_run(const Parameters &scene, const std::function<void()> &after_step) const
   {
-    const auto third = std::make_shared<Simulation>(scene, "", true, problem.mesh.communicator);
-    return [this, third](const double time) {
-      while (third->time() < time * (1. - 1e-12) && !third->finished())
+    const auto other = std::make_shared<Simulation>(scene, "", true, problem.mesh.communicator);
+    return [other, after_step](const double time) {
+      while (other->time() < time * (1. - 1e-12) && !other->finished())
         {
-          third->advance();
-          if (!interruption.after_step(observation()))
-            throw ComputationError("it was interrupted");
+          other->advance();
+          after_step();
         }
-      return StepDoubling::Arrival{third->time(), third->current_state().displacement};
+      return StepDoubling::Arrival{other->time(), other->current_state().displacement};
     };
   }
 

@@ -1,6 +1,7 @@
 #include <supple/run/space_estimate.h>
 
 #include <supple/base/error.h>
+#include <supple/base/stopwatch.h>
 #include <supple/base/text.h>
 
 #include <deal.II/base/mpi.h>
@@ -8,20 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace Supple
 {
   namespace
   {
-    // Errors by jumps over those by recovery: from here on cells lock, and from here on the
-    // estimate is far too small.
-    constexpr double locks = 2., locks_fast = 5.;
-
-    // A relative error beyond which numbers mean little.
-    constexpr double largest_told = 0.5;
-
     // Below it other errors are larger.
     constexpr double least_told = 1e-4;
 
@@ -40,8 +33,8 @@ namespace Supple
     std::string
     part_of(const double part, const bool at_least, const std::string &whole)
     {
-      if (!(part <= largest_told))
-        return "more than " + percent(largest_told) + " of " + whole;
+      if (!(part <= largest_told_error))
+        return "more than " + percent(largest_told_error) + " of " + whole;
       if (part < least_told)
         return "less than " + percent(least_told) + " of " + whole;
       return (at_least ? "more than " : "about ") + percent(part) + " of " + whole;
@@ -52,14 +45,14 @@ namespace Supple
   std::string
   SpaceErrors::in_words() const
   {
-    const bool lock        = energy.lock_ratio.value_or(0.) > locks;
+    const bool lock        = energy.locks();
     const std::string mesh = lock ? " (mesh; cells lock)" : " (mesh)";
     if (!probes.empty() && of != forces)
       return "in space " + part_of(std::abs(probes.front().relative()), lock, probes.front().name) +
              mesh;
     if (!unknown.empty())
       return "in space unknown, for " + unknown;
-    if (stationary || energy.of_work() > largest_told)
+    if (stationary || energy.of_work() > largest_told_error)
       return "in space " + part_of(energy.of_work(), lock, of) + mesh;
     return "in space a swing too quick by " + std::string(lock ? "more than " : "") +
            percent(energy.of_frequency()) + mesh;
@@ -69,15 +62,15 @@ namespace Supple
   std::vector<std::string>
   SpaceErrors::warnings() const
   {
-    const double ratio = energy.lock_ratio.value_or(0.);
-    if (ratio <= locks)
+    if (!energy.locks())
       return {};
     return {
-      "The cells lock: stress goes up and down from cell to cell, " + digits(ratio, 2) +
+      "The cells lock: stress goes up and down from cell to cell, " +
+      digits(*energy.lock_ratio, 2) +
       " times as much as its recovery explains (about 1 is right, doc/error.md). The error in "
       "space is " +
-      (ratio > locks_fast ? "unknown and large" : "more than the estimate") + "; " + cure +
-      " helps."};
+      (energy.is_unknown_by_locking() ? "unknown and large" : "more than the estimate") + "; " +
+      cure + " helps."};
   }
 
 
@@ -87,8 +80,8 @@ namespace Supple
     nlohmann::ordered_json json = {{"time", time}};
     if (!unknown.empty())
       json["unknown"] = unknown;
-    else if (energy.of_work() > largest_told)
-      json["more_than"] = largest_told;
+    else if (energy.of_work() > largest_told_error)
+      json["more_than"] = largest_told_error;
     else
       json.update({{"energy", energy.relative_norm()},
                    {"work", energy.of_work()},
@@ -98,7 +91,7 @@ namespace Supple
     if (energy.lock_ratio)
       json["lock_ratio"] = *energy.lock_ratio;
     for (const ProbeError &probe : probes)
-      if (std::abs(probe.relative()) <= largest_told)
+      if (std::abs(probe.relative()) <= largest_told_error)
         json["probes"][probe.name] = probe.relative();
       else
         json["probes"][probe.name] = nullptr;
@@ -135,7 +128,7 @@ namespace Supple
     if (!now.last && !(each && frame_due(now.measurement)))
       return true;
     const PhaseTimer timer(problem.effort, Phase::diagnostics);
-    const auto start         = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     const Effort of_run      = problem.effort;
     const SpaceErrors errors = estimate(now);
     problem.effort           = of_run; // dual solutions are no part of it
@@ -145,7 +138,7 @@ namespace Supple
     of_work = known ? errors.energy.of_work() : std::numeric_limits<double>::quiet_NaN();
     if (now.last)
       last = errors;
-    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    seconds += stopwatch.seconds();
     return true;
   }
 
@@ -223,7 +216,7 @@ namespace Supple
     const double least = round_off * round_off * stiffness * problem.mesh.volume;
     if (!(energy.strain_energy > std::max(least, little * kinetic)))
       return "the body has no strain energy to speak of";
-    if (energy.lock_ratio.value_or(0.) > locks_fast)
+    if (energy.is_unknown_by_locking())
       return "the cells lock; " + cure + " helps";
     return "";
   }

@@ -1,9 +1,9 @@
 #include <supple/run/step_doubling.h>
 
 #include <supple/base/error.h>
+#include <supple/base/stopwatch.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -17,16 +17,6 @@ namespace Supple
     /** An observed order below this part of that of the method says that the steps are too long for
      * any. */
     constexpr double believable = 0.7;
-
-    using Clock = std::chrono::steady_clock;
-
-
-    double
-    seconds_since(const Clock::time_point start)
-    {
-      return std::chrono::duration<double>(Clock::now() - start).count();
-    }
-
 
     /** With variable steps the tolerance is that of a step, whose length goes with its (p+1)-st
      * root, and the error with its p-th power. */
@@ -112,7 +102,7 @@ namespace Supple
   {
     if (!failure.empty())
       return {};
-    const Clock::time_point began = Clock::now();
+    const Stopwatch stopwatch;
     std::optional<Arrival> second;
     try
       {
@@ -122,7 +112,7 @@ namespace Supple
       {
         failure = error.what();
       }
-    seconds += seconds_since(began);
+    seconds += stopwatch.seconds();
     if (!second || std::abs(second->time - time) > 1e-9 * time)
       return {};
 
@@ -147,7 +137,7 @@ namespace Supple
   void
   StepDoubling::add_third_run()
   {
-    const Clock::time_point began = Clock::now();
+    const Stopwatch stopwatch;
     try
       {
         const OtherRun third_run = make_third_run();
@@ -163,7 +153,7 @@ namespace Supple
       {
         third_failure = error.what();
       }
-    seconds += seconds_since(began);
+    seconds += stopwatch.seconds();
   }
 
 

@@ -4,12 +4,12 @@
 #include <supple/base/files.h>
 #include <supple/base/interrupt.h>
 #include <supple/base/progress.h>
+#include <supple/base/stopwatch.h>
 #include <supple/base/text.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -134,7 +134,7 @@ namespace Supple
   Study::run()
   {
     const InterruptGuard interrupt;
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     for (const PlannedRun &run : plan.references)
       runner.check(plan.parameters(run)); // what is refused leaves an earlier study as it is
     open_output();
@@ -164,8 +164,7 @@ namespace Supple
     if (plan.kind != StudyPlan::Kind::cases)
       for (const std::string &sentence : table.sentences())
         say(sentence);
-    const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - start;
-    say("done in " + readable_duration(duration.count()) + ": " + folder + "/study.md");
+    say("done in " + readable_duration(stopwatch.seconds()) + ": " + folder + "/study.md");
     require_any_right();
   }
 

@@ -10,6 +10,10 @@
 
 namespace Supple
 {
+  /** A relative error beyond which numbers mean little. */
+  constexpr double largest_told_error = 0.5;
+
+
   /** What the recovered stress says of the error of a configuration, of all processes. */
   struct EnergyError
   {
@@ -31,6 +35,14 @@ namespace Supple
     /** sqrt(1 + e / (2 W)) - 1: by how much a swing of this shape is too quick. */
     double
     of_frequency() const;
+
+    /** Cells lock, so that the error is more than the estimate. */
+    bool
+    locks() const;
+
+    /** Cells lock so much that the estimate is far too small. */
+    bool
+    is_unknown_by_locking() const;
 
   private:
     /** e = eta^2 and the patches' part [J]. */

@@ -107,10 +107,9 @@ namespace Supple
     std::unique_ptr<StepDoubling>
     make_second_run();
 
-    /** A run of another scene, that ends with a ComputationError if this one is to be interrupted.
-     */
+    /** A run of another scene. @param after_step is called after each of its steps */
     StepDoubling::OtherRun
-    make_third_run(const Parameters &scene);
+    other_run(const Parameters &scene, const std::function<void()> &after_step) const;
 
     /** What estimates the error in space of this run; null if nobody asks for it. */
     std::unique_ptr<SpaceEstimate>
