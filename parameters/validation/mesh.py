@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
-"""Meshes of Cook's membrane and of a hollow sphere for the scenes of this folder.
+"""Meshes of Cook's membrane, of a hollow sphere and of an L for the scenes of this folder.
 
     python3 mesh.py cook N FILE            N x N squares, each cut into two triangles
     python3 mesh.py cook-3d N FILE         N x N cubes, one layer, each cut into six tetrahedra
     python3 mesh.py sphere N FILE          an eighth of a hollow sphere: N layers of cubes, thinner inside, likewise
+    python3 mesh.py l-bar N FILE           three unit cubes about an edge of 270 degrees, each of N x N x N cubes, likewise
 
-The committed ones: cook 32 cook.msh, cook-3d 16 cook-3d.msh, sphere 12 sphere.msh. Inner vertices are moved a little at
-random, so that no result owes anything to a regular mesh.
+The committed ones: cook 32 cook.msh, cook-3d 16 cook-3d.msh, sphere 12 sphere.msh, l-bar 3 l-bar.msh. But for the L, inner
+vertices are moved a little at random, so that no result owes anything to a regular mesh.
 
-Boundary ids: cook 1 left, 2 right, 3 the rest, 4 front and back; sphere 1 inside, 2 outside, 3, 4, 5 in x, y, z = 0.
+Boundary ids: cook 1 left, 2 right, 3 the rest, 4 front and back; sphere 1 inside, 2 outside, 3, 4, 5 in x, y, z = 0; l-bar 1 in
+y = 2, 2 in x = 2, 3 the rest.
 """
 
 import itertools
@@ -125,11 +127,28 @@ def sphere(n, name, moved=0.1):
     write(name, points, cells, faces)
 
 
+def l_bar(n, name):
+    """The cubes from (0, 0, 0), (1, 0, 0) and (0, 1, 0)."""
+    logical, cells = grid((2 * n, 2 * n, n))
+    cells = [cell for cell in cells if any(all(logical[v][d] <= n for v in cell) for d in (0, 1))]
+    used = sorted({v for cell in cells for v in cell})
+    number = {v: i for i, v in enumerate(used)}
+    cells = [[number[v] for v in cell] for cell in cells]
+    points = [tuple(x / n for x in logical[v]) for v in used]
+
+    def boundary(face):
+        return next((group for group, d in ((1, 1), (2, 0)) if all(points[v][d] == 2 for v in face)), 3)
+
+    write(name, points, cells, [(boundary(face), face) for face in surface(cells)])
+
+
 if __name__ == "__main__":
-    if len(sys.argv) != 4 or sys.argv[1] not in ("cook", "cook-3d", "sphere"):
+    if len(sys.argv) != 4 or sys.argv[1] not in ("cook", "cook-3d", "sphere", "l-bar"):
         sys.exit(__doc__)
     what, size, target = sys.argv[1], int(sys.argv[2]), sys.argv[3]
     if what == "sphere":
         sphere(size, target)
+    elif what == "l-bar":
+        l_bar(size, target)
     else:
         cook(size, target, what == "cook-3d")

@@ -1,5 +1,6 @@
 """The error in space that a run tells of itself, against the true one: its effectivity is told over true."""
 
+import importlib.util
 import math
 import pathlib
 import sys
@@ -186,43 +187,12 @@ results = solve(CANTILEVER, {"Mesh/Box cubes": "4, 24, 4", "Corotation/Rotation"
 near("cantilever of 4 cubes, far bent, tip.uz", probe_effectivity(results, "tip.uz", 2.76), 1.22, 0.05)
 
 
-def lbar(n):
-    """Three unit cubes about an edge of 270 degrees, n cells along each side of one, as a file that the program reads."""
-    number, cells = {}, []
-
-    def vertex(*place):
-        return number.setdefault(place, len(number))
-
-    for i in range(2 * n):
-        for j in range(2 * n):
-            for k in range(n):
-                if i < n or j < n:
-                    c = [vertex(i + (q & 1), j + (q >> 1 & 1), k + (q >> 2 & 1)) for q in range(8)]
-                    cells += [[c[a] for a in tet] for tet in [(0, 1, 3, 7), (0, 1, 7, 5), (0, 5, 7, 4), (0, 3, 2, 7), (0, 2, 6, 7), (0, 6, 4, 7)]]
-    file = folder / f"lbar{n}.vtk"
-    file.write_text("\n".join(["# vtk DataFile Version 3.0", "an L", "ASCII", "DATASET UNSTRUCTURED_GRID", f"POINTS {len(number)} double"] +
-                              [" ".join(str(c / n) for c in place) for place in number] + [f"CELLS {len(cells)} {5 * len(cells)}"] +
-                              [" ".join(map(str, [4, *cell])) for cell in cells] + [f"CELL_TYPES {len(cells)}"] + ["10"] * len(cells)) + "\n")
-    return file
-
-
-LBAR = folder / "lbar.prm"
-LBAR.write_text(COMMON + """
-subsection Mesh
-  set Shape            = file
-  set Boundary regions = 1: y > 1.999; 2: x > 1.999
-end
-subsection Constraints
-  set Clamped boundaries = 1
-end
-subsection Loads
-  set Traction    = 0; -1; 0
-  set Traction on = 2
-end
-subsection Probes
-  set Points = tip: 2, 1, 1
-end
-""")
+# Three unit cubes about an edge of 270 degrees.
+LBAR = runner.ROOT / "parameters" / "validation" / "l-bar.prm"
+spec = importlib.util.spec_from_file_location("mesh", LBAR.parent / "mesh.py")
+mesh = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(mesh)
 for n, expected in [(3, 0.89), (6, 0.92)]:
-    results = solve(LBAR, {"Mesh/File": lbar(n)})
+    mesh.l_bar(n, folder / "l-bar.msh")
+    results = solve(LBAR, {"Mesh/File": folder / "l-bar.msh"})
     near(f"L of {n} cubes, tip.uy", probe_effectivity(results, "tip.uy", 0.0479334), expected, 0.05)
