@@ -35,6 +35,7 @@ volumes() {
 growing=(--names linear corotational --field volume_ratio)
 loading=(--times 0 0.5 1 --instants "without load" "half the load" "all of it")
 lying=(--stacked --up 1 0 0 --camera 0 1 0.35)                 # the axis to the right, x upwards
+erring=(--field error_in_space --title "error in space" --width 600)
 held_free=(--names held free --times 0 0.05 0.5)
 
 show bar bar/large --times 0.07 0.21 0.49
@@ -57,6 +58,12 @@ show vein-pulse vein/pulse "${lying[@]}" --times 0 0.355 0.9 --enlarge 4 --field
   --instants "at rest" "systole, t = 0.355 s" "diastole, t = 0.9 s"
 show needle skin/needle --times 0.1667 0.3333 0.5 --camera 0.5 0.75 1 --up 0 1 0 --range 0 100e3 --width 1500
 settings=Time/Steps=2 show thick-cylinder validation/thick-cylinder "${loading[@]}" --enlarge 150
+
+settings="Mesh/Box cubes=8, 24, 8" show error-bar bar/static "${erring[@]}" --times 1 --instants "all of the load" --enlarge 20 --range 0 1.5
+settings="Space/Estimate error=frames" show error-vein vein/pulse "${erring[@]}" --times 0.355 --up 1 0 0 --camera 0 1 0.35 \
+  --enlarge 4 --instants "systole, t = 0.355 s"
+settings="Space/Estimate error=frames" show error-needle skin/needle "${erring[@]}" --times 0.5 --camera 0.5 0.75 1 --up 0 1 0 \
+  --range 0 4
 
 volumes volumes-mushroom mushroom/mushroom-linear mushroom/mushroom
 volumes volumes-armadillo armadillo/armadillo-linear armadillo/armadillo

@@ -4,17 +4,55 @@
 #include <supple/base/files.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 namespace Supple
 {
+  namespace
+  {
+    std::string
+    header(const std::vector<std::string> &column_names)
+    {
+      std::string line;
+      for (const std::string &name : column_names)
+        line += (line.empty() ? "" : ",") + name;
+      return line;
+    }
+
+
+    /** A table after its last row of a step; the header alone if there is no such table. */
+    std::string
+    up_to_step(const std::string &file, const std::string &header, const unsigned int step)
+    {
+      std::istringstream old(content_of(file));
+      std::string text = header + '\n', line;
+      if (!std::getline(old, line) || line != header)
+        return text;
+      while (std::getline(old, line) && std::strtod(line.c_str(), nullptr) <= step)
+        text += line + '\n';
+      return text;
+    }
+  } // namespace
+
+
   CsvFile::CsvFile(const std::string &file, const std::vector<std::string> &column_names)
     : file(file)
     , stream(file)
   {
-    for (std::size_t i = 0; i < column_names.size(); ++i)
-      stream << (i == 0 ? "" : ",") << column_names[i];
-    stream << std::endl;
+    stream << header(column_names) << std::endl;
+    if (!stream)
+      throw WriteError(file + " can't be written.");
+  }
+
+
+  CsvFile::CsvFile(const std::string &file,
+                   const std::vector<std::string> &column_names,
+                   const unsigned int step)
+    : file(file)
+  {
+    write_whole_file(file, up_to_step(file, header(column_names), step));
+    stream.open(file, std::ios::app);
     if (!stream)
       throw WriteError(file + " can't be written.");
   }

@@ -294,6 +294,13 @@ namespace Supple
   }
 
 
+  bool
+  MeshParameters::walls_cross() const
+  {
+    return inner_radius > outer_radius * std::cos(dealii::numbers::PI / sectors);
+  }
+
+
   void
   MeshParameters::check_cylinder(const ParameterFile &scene) const
   {
@@ -304,7 +311,7 @@ namespace Supple
     if (inner_radius >= outer_radius)
       throw InputError(scene.origin("Mesh/Cylinder inner radius") +
                        ": it must be smaller than the outer radius.");
-    if (inner_radius > outer_radius * std::cos(dealii::numbers::PI / sectors))
+    if (walls_cross())
       throw InputError(
         scene.origin("Mesh/Cylinder sectors") +
         ": so few that the straight edges of the outer wall would cut through the inner one. "

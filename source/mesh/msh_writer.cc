@@ -35,10 +35,11 @@ namespace Supple
                 const unsigned int id,
                 const Vertices &vertices)
     {
-      // The second tag, a number of Gmsh's own, must not be 0.
+      // The second tag, a number of Gmsh's own, must not be 0, and not larger than its integers.
+      const unsigned int tag = id < 2147483647u ? id + 1 : 1;
       text += std::to_string(number) + " " +
               std::to_string(kind_of_dimension[vertices.size() - 1]) + " 2 " + std::to_string(id) +
-              " " + std::to_string(id + 1);
+              " " + std::to_string(tag);
       for (const unsigned int vertex : vertices)
         text += " " + std::to_string(vertex + 1);
       text += "\n";

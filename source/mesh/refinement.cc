@@ -14,6 +14,13 @@ namespace Supple
 
   namespace
   {
+    std::string
+    coordinates_in_words(const Point<3> &point)
+    {
+      return digits(point[0], 6) + ", " + digits(point[1], 6) + ", " + digits(point[2], 6);
+    }
+
+
     /** A mesh on its way to be refined. */
     class Refiner
     {
@@ -87,6 +94,18 @@ namespace Supple
           }
       }
 
+      void
+      refine_everywhere()
+      {
+        for (unsigned int round = 0; round < parameters.everywhere; ++round)
+          {
+            Bisection bisection(mesh, shape.places(mesh));
+            for (unsigned int cell = 0; cell < mesh.cells.size(); ++cell)
+              bisection.mark_all(cell);
+            cut(bisection, 0., scene.origin("Space/Second mesh"));
+          }
+      }
+
     private:
       static constexpr double round_off = 1e-9;
 
@@ -104,7 +123,13 @@ namespace Supple
       {
         std::vector<bool> inside(places.size());
         for (std::size_t v = 0; v < places.size(); ++v)
-          inside[v] = region.value(places[v], 0.) > 0.;
+          {
+            const double value = region.value(places[v], 0.);
+            if (!std::isfinite(value))
+              throw InputError(origin + ": it is not a finite number at (" +
+                               coordinates_in_words(places[v]) + ").");
+            inside[v] = value > 0.;
+          }
         std::vector<Selected> chosen;
         for (unsigned int c = 0; c < mesh.cells.size(); ++c)
           {
@@ -167,7 +192,9 @@ namespace Supple
   {
     Refiner refiner(mesh, parameters, shape, scene);
     refiner.refine_region();
+    shape.name_boundaries(mesh);
     refiner.refine_by_pilots();
+    refiner.refine_everywhere();
   }
 
 

@@ -3,7 +3,7 @@
 #include <supple/base/error.h>
 #include <supple/input/entries.h>
 
-#include <sstream>
+#include <regex>
 
 namespace Supple
 {
@@ -15,12 +15,11 @@ namespace Supple
     std::pair<unsigned int, std::string>
     taken_apart(const std::string &text)
     {
-      std::istringstream words(text);
-      unsigned int n = 0;
-      std::string by, quantity, rest;
-      words >> n >> by >> quantity;
-      const bool right = by == "by" && !quantity.empty() && !(words >> rest) && n <= 100;
-      return {right ? n : 0, quantity};
+      std::smatch found;
+      if (!std::regex_match(text, found, std::regex("\\s*(\\d{1,3})\\s+by\\s+(\\S+)\\s*")))
+        return {0, ""};
+      const unsigned int n = std::stoul(found[1]);
+      return {n <= 100 ? n : 0, found[2]};
     }
   } // namespace
 

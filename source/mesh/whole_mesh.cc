@@ -19,9 +19,13 @@ namespace Supple
 
   namespace
   {
-    /** Boundary ids by expressions: those that the user gives are stronger. */
+    /** Boundary ids by expressions: those that the user gives are stronger.
+     * @param places of the vertices, where the map puts them */
     void
-    assign_boundary_regions(SerialMesh &mesh, const std::string &regions, const std::string &origin)
+    assign_boundary_regions(SerialMesh &mesh,
+                            const std::vector<Point<3>> &places,
+                            const std::string &regions,
+                            const std::string &origin)
     {
       for (const std::string &item : Utilities::split_string_list(regions, ';'))
         {
@@ -40,7 +44,7 @@ namespace Supple
             {
               const auto vertices = mesh.face_vertices(face);
               if (std::all_of(vertices.begin(), vertices.end(), [&](const unsigned int v) {
-                    return inside.value(mesh.vertices[v], 0.) != 0.;
+                    return inside.value(places[v], 0.) != 0.;
                   }))
                 {
                   face.boundary_id = std::stoul(id);
@@ -50,8 +54,7 @@ namespace Supple
           if (n_faces == 0)
             throw InputError(origin + ": no face of the surface has all its vertices in '" +
                              item.substr(colon + 1) + "'. The body lies in " +
-                             extent_in_words(box_around(mesh, mesh.vertices), mesh.dimension) +
-                             " m.");
+                             extent_in_words(box_around(mesh, places), mesh.dimension) + " m.");
         }
     }
 
@@ -154,6 +157,12 @@ namespace Supple
           apply_map(copy, parameters.map, scene.origin("Mesh/Map"));
         return copy.vertices;
       };
+      shape.name_boundaries = [&](SerialMesh &of) {
+        assign_boundary_regions(of,
+                                shape.places(of),
+                                parameters.boundary_regions,
+                                scene.origin("Mesh/Boundary regions"));
+      };
       Supple::refine(mesh, parameters.refinement, shape, scene);
       return before;
     }
@@ -193,9 +202,11 @@ namespace Supple
     add_new(before.warnings, report.warnings);
     if (mesh.dimension == 2 && plane.section.axisymmetric())
       fit_to_axis(mesh, scene.origin(from_file ? "Mesh/File" : "Mesh/Rectangle origin"));
-    assign_boundary_regions(mesh,
-                            parameters.boundary_regions,
-                            scene.origin("Mesh/Boundary regions"));
+    if (!parameters.refinement.wanted())
+      assign_boundary_regions(mesh,
+                              mesh.vertices,
+                              parameters.boundary_regions,
+                              scene.origin("Mesh/Boundary regions"));
     return {std::move(mesh), std::move(report)};
   }
 } // namespace Supple

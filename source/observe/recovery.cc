@@ -172,6 +172,25 @@ namespace Supple
           known[poor[number]] = 1;
         halo.update(reinterpret_cast<char *>(known.data()), n_slots * sizeof(unsigned int));
       }
+    bool here = true;
+    for (std::size_t site = 0; site < std::size_t(n_slots) * body.n_owned; ++site)
+      here = here && (known[site] || start[site + 1] == start[site]);
+    everywhere = dealii::Utilities::MPI::min(here ? 1 : 0, body.mesh.communicator) == 1;
+  }
+
+
+  bool
+  Recovery::is_rough() const
+  {
+    std::vector<double> here(2), all(2); // sites, and those with too few cells
+    for (std::size_t site = 0; site < std::size_t(n_slots) * body.n_owned; ++site)
+      if (const std::size_t n_cells = start[site + 1] - start[site]; n_cells > 0)
+        {
+          ++here[0];
+          here[1] += n_cells < least_cells(n_nodes);
+        }
+    dealii::Utilities::MPI::sum(here, body.mesh.communicator, all);
+    return all[1] > (n_nodes == 4 ? 0.5 : 0.75) * all[0];
   }
 
 

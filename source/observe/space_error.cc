@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -31,6 +32,14 @@ namespace Supple
   EnergyError::of_work() const
   {
     return of_energy() / (2. * strain_energy + of_energy());
+  }
+
+
+  double
+  EnergyError::of_forces() const
+  {
+    return of_energy() < 2. * strain_energy ? of_energy() / (2. * strain_energy - of_energy())
+                                            : std::numeric_limits<double>::infinity();
   }
 
 
@@ -64,11 +73,36 @@ namespace Supple
 
 
   bool
-  SpaceError::may_lock() const
+  SpaceError::may_lock(const unsigned int material) const
   {
     constexpr double safe = 0.4; // Poisson's ratio
-    return configuration.body.largest_poisson() > safe &&
+    return configuration.body.material(material).poisson() > safe &&
            configuration.body.mesh.section.geometry != Geometry::plane_stress;
+  }
+
+
+  std::optional<double>
+  SpaceError::lock_ratio() const
+  {
+    const Body &body = configuration.body;
+    if (!(error.square > 0.) ||
+        std::none_of(body.mesh.materials.begin(),
+                     body.mesh.materials.end(),
+                     [&](const auto &material) { return may_lock(material.first); }))
+      return {};
+    double here = 0.;
+    for (std::size_t c = 0; c < squares.size(); ++c)
+      if (may_lock(body.cell_material[c]))
+        here += squares[c];
+    const double square = Utilities::MPI::sum(here, body.mesh.communicator);
+    const double jumps  = jump_estimate(body, stress->piola, [this](const unsigned int material) {
+      return may_lock(material);
+    });
+    // What has no part in the error does not lock.
+    constexpr double little = 1e-6;
+    if (!(square > little * error.square))
+      return {};
+    return std::sqrt(jumps / square);
   }
 
 
@@ -87,9 +121,9 @@ namespace Supple
                                       double(deformation.inverted)};
     std::vector<double> sums(here.size());
     Utilities::MPI::sum(here, body.mesh.communicator, sums);
-    error = {sums[0], sums[1], sums[2], {}, static_cast<unsigned int>(sums[3])};
-    if (may_lock() && error.square > 0.)
-      error.lock_ratio = std::sqrt(jump_estimate(body, stress->piola) / error.square);
+    error            = {sums[0], sums[1], sums[2], {}, static_cast<unsigned int>(sums[3])};
+    error.lock_ratio = lock_ratio();
+    error.rough      = recovery.is_rough();
     return error;
   }
 

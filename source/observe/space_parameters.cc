@@ -16,6 +16,16 @@ namespace Supple
       "When the error that the mesh makes is estimated from the stress (doc/error.md). end: in the "
       "last state, for the end of the run, summary.json and the last frame. frames: at each frame "
       "too, with a field of the cells in the frames and a column in history.csv.");
+    Entries::add_choice(
+      prm,
+      "Second mesh",
+      second_mesh,
+      {{"none", SecondMesh::none}, {"coarser", SecondMesh::coarser}, {"finer", SecondMesh::finer}},
+      "On which the same scene moves along, to tell the error of the mesh from the distance of the "
+      "two (doc/error.md). coarser: cells twice as large, of generated shapes with even counts of "
+      "cubes, squares, sectors, layers and intervals between rings; an eighth of the work, and "
+      "where those counts can be halved twice a third run tells the order. finer: each cell is cut "
+      "in eight (triangles in four), of every shape; at least eight times the work.");
     Entries::add(
       prm,
       "Aim",
@@ -23,7 +33,9 @@ namespace Supple
       "1",
       Range("0, or a number greater than 0 and less than 1",
             [](const std::string &text) {
-              return text == "0" || Range::between(0, 1).match(text);
+              return Range::at_least(0).match(text) &&
+                     (Range::between(0, 1).match(text) ||
+                      !Range::between(0, Entries::infinity).match(text));
             }),
       "Of a static scene, such as 0.01: it is run again and again, on a mesh refined as "
       "by Mesh/Refine, until the relative error in space of that quantity is estimated to "

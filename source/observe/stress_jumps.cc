@@ -19,6 +19,7 @@ namespace Supple
       Vector3 normal;                     ///< outward, as long as the face is large [m^2]
       Vector3 force;                      ///< P normal [N]
       double compliance;                  ///< 1/mu [1/Pa]
+      unsigned int material;              ///< id
     };
 
 
@@ -36,13 +37,16 @@ namespace Supple
     class Sides
     {
     public:
-      Sides(const Body &body, const std::vector<Matrix3<Pack>> &piola)
+      Sides(const Body &body,
+            const std::vector<Matrix3<Pack>> &piola,
+            const std::function<bool(unsigned int)> &counts)
         : body(body)
         , piola(piola)
+        , counts(counts)
         , n_nodes(body.cells->n_nodes)
         , start(body.n_owned + 1)
       {
-        visit([&](const unsigned int first, std::size_t, unsigned int, unsigned int) {
+        visit([&](const unsigned int first, std::size_t, unsigned int, unsigned int, std::size_t) {
           ++start[first + 1];
         });
         for (unsigned int node = 0; node < body.n_owned; ++node)
@@ -52,8 +56,10 @@ namespace Supple
         visit([&](const unsigned int first,
                   const std::size_t b,
                   const unsigned int lane,
-                  const unsigned int opposite) {
-          list[end[first]++] = side(first, b, lane, opposite);
+                  const unsigned int opposite,
+                  const std::size_t cell) {
+          list[end[first]]            = side(first, b, lane, opposite);
+          list[end[first]++].material = body.cell_material[cell];
         });
       }
 
@@ -64,24 +70,26 @@ namespace Supple
         for (unsigned int node = 0; node < body.n_owned; ++node)
           for (std::size_t k = start[node]; k < start[node + 1]; ++k)
             for (std::size_t l = start[node]; l < k; ++l)
-              if (list[k].others == list[l].others)
+              if (list[k].others == list[l].others && list[k].material == list[l].material)
                 sum += jump(node, list[k], list[l]);
         return sum;
       }
 
     private:
-      /** Calls action(first node, batch, lane, opposite node) for the sides of owned first nodes.
-       */
+      /** Calls action(first node, batch, lane, opposite node, cell) for the sides of owned first
+       * nodes of cells that count. */
       template <class Action>
       void
       visit(const Action &action) const
       {
         const Cells &cells = *body.cells;
         for (std::size_t b = 0; b < cells.n_batches(); ++b)
-          cells.for_lanes(b, [&](const unsigned int lane, std::size_t) {
+          cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
+            if (!counts(body.cell_material[cell]))
+              return;
             for (unsigned int opposite = 0; opposite < n_nodes; ++opposite)
               if (const unsigned int first = first_node(b, lane, opposite); first < body.n_owned)
-                action(first, b, lane, opposite);
+                action(first, b, lane, opposite, cell);
           });
       }
 
@@ -144,6 +152,7 @@ namespace Supple
 
       const Body &body;
       const std::vector<Matrix3<Pack>> &piola;
+      const std::function<bool(unsigned int)> &counts;
       const unsigned int n_nodes;
       std::vector<std::size_t> start; ///< of each owned node in the list
       std::vector<Side> list;
@@ -152,8 +161,11 @@ namespace Supple
 
 
   double
-  jump_estimate(const Body &body, const std::vector<Matrix3<Pack>> &piola)
+  jump_estimate(const Body &body,
+                const std::vector<Matrix3<Pack>> &piola,
+                const std::function<bool(unsigned int)> &counts)
   {
-    return dealii::Utilities::MPI::sum(Sides(body, piola).estimate(), body.mesh.communicator);
+    return dealii::Utilities::MPI::sum(Sides(body, piola, counts).estimate(),
+                                       body.mesh.communicator);
   }
 } // namespace Supple

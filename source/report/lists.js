@@ -30,8 +30,16 @@ function timeEntries(error) {
     ['by a second run', !second ? null : second.failed ? `unknown: ${second.failed}` : `${second.at_least ? 'more than ' : ''}${quantity(second.largest, 'm', 3)} (${percent(second.relative)}${second.order === undefined ? '' : `, order ${digits(second.order, 2)}`})`]];
 }
 
+function secondMeshEntries(second) {
+  if (!second) return [];
+  const order = second.order !== undefined ? `, order ${digits(second.order, 2)}` : second.order_assumed !== undefined ? `, order ${digits(second.order_assumed, 2)} assumed` : '';
+  const probes = Object.entries(second.probes ?? {}).map(([name, error]) => [`by a second mesh, of ${name}`, percent(error.relative)]);
+  return [['in space, by a second mesh', second.failed ? `unknown: ${second.failed}` :
+    `${second.at_least ? 'more than ' : ''}${quantity(second.largest, 'm', 3)} (${percent(second.relative)} of the motion; ${second.mesh}${order})`], ...probes];
+}
+
 function errorEntries(error) {
-  return error ? [...timeEntries(error), ...spaceEntries(error.space)] : [];
+  return error ? [...timeEntries(error), ...spaceEntries(error.space), ...secondMeshEntries(error.second_mesh)] : [];
 }
 
 /** Where the time went. */

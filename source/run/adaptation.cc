@@ -1,6 +1,7 @@
 #include <supple/run/adaptation.h>
 
 #include <supple/base/error.h>
+#include <supple/base/interrupt.h>
 #include <supple/base/progress.h>
 #include <supple/base/stopwatch.h>
 #include <supple/base/text.h>
@@ -30,10 +31,7 @@ namespace Supple
     Parameters
     pilot_scene(const Parameters &scene)
     {
-      Parameters pilot          = scene;
-      pilot.time.estimate_error = false;
-      pilot.space.estimate      = SpaceParameters::Estimate::never;
-      return pilot;
+      return Companion::scene(scene);
     }
 
 
@@ -102,7 +100,8 @@ namespace Supple
     const unsigned int most =
       asked.by.empty() ? std::numeric_limits<unsigned int>::max() : asked.n_rounds();
     const double aim = scene.space.aim;
-    bool goes_on     = true;
+    const InterruptGuard interrupt;
+    bool goes_on = true;
     while (goes_on && pilots.size() < most)
       {
         const std::string number = std::to_string(pilots.size() + 1);
@@ -112,13 +111,24 @@ namespace Supple
           }
         catch (const InterruptedError &)
           {
-            throw;
+            throw InterruptedError("Interrupted in pilot run " + number +
+                                   ", which was to refine the mesh; nothing is written.");
           }
         catch (const ComputationError &error)
           {
             throw ComputationError("Pilot run " + number +
                                    ", which was to refine the mesh: " + error.what());
           }
+        catch (const InputError &error)
+          {
+            if (aim == 0. || pilots.empty())
+              throw;
+            fine.mesh.refinement.end_of_pilots = error.what(); // a finer mesh there can't be
+            break;
+          }
+        if (interrupt.requested(communicator))
+          throw InterruptedError("Interrupted after pilot run " + number +
+                                 ", which was to refine the mesh; nothing is written.");
         quantity = pilots.back().of;
         if (talks && root)
           print(pilots.back(), pilots.size());
@@ -126,7 +136,7 @@ namespace Supple
           require_error(pilots.back(), scene);
         goes_on = !(pilots.back().error <= aim);
       }
-    if (!goes_on)
+    if (!goes_on || !fine.mesh.refinement.end_of_pilots.empty())
       pilots.back().marked.clear();
     return fine;
   }

@@ -137,8 +137,18 @@ namespace Supple
     Vector loads;
     problem.body.initialize(loads);
     problem.forces.set_loads(loads, problem.configuration, 1.);
-    if (!points->matter(integrator.reactions(), loads))
-      relative_error = error.of_work();
+    if (points->matter(integrator.reactions(), loads))
+      return;
+    relative_error = error.of_work();
+    if (!problem.forces.change_operator() || loads.l2_norm() == 0.)
+      return;
+    ProbeErrors duals(*space_error,
+                      problem.configuration,
+                      problem.forces,
+                      problem.implicit_operator,
+                      *problem.solver,
+                      problem.effort);
+    relative_error = std::abs(duals.find_of_work(loads).relative());
   }
 
 
@@ -195,7 +205,9 @@ namespace Supple
     const std::vector<unsigned int> cells = largest(all);
     const MPI_Comm communicator           = problem.mesh.communicator;
     if (Utilities::MPI::broadcast(communicator, cells.size()) == 0)
-      throw ComputationError("no cell has an error: the body has no strain energy to speak of");
+      throw ComputationError(
+        "no cell has an error that can be told: the body has no strain energy "
+        "to speak of, too few cells, or cells that are inside out");
     return cells;
   }
 } // namespace Supple

@@ -124,6 +124,8 @@ namespace Supple
       text = "in time by a second run, ";
     else if (!problem.stationary)
       text = "in time estimated step by step (Time/Estimate error), ";
+    if (problem.parameters.space.second_mesh != SpaceParameters::SecondMesh::none)
+      text += "in space by a run on another mesh, ";
     switch (problem.parameters.space.estimate)
       {
         case Estimate::end:
@@ -332,23 +334,46 @@ namespace Supple
     }
 
 
+    /**
+     * The least error of an undamped motion whose steps have taken a part of its energy, as a part
+     * of the motion: its swings have shrunk to the root of what is left, and are half of the motion
+     * where it began at one end. Steps that are longer than the swings take all at once, so that
+     * runs with half the step are as wrong. 0 where less than most of it is lost: waves that do not
+     * move the body far may have as much.
+     */
+    double
+    least_error_by_energy(const double lost)
+    {
+      constexpr double most = 0.8;
+      return lost > most ? 0.5 * (1. - std::sqrt(std::max(0., 1. - lost))) : 0.;
+    }
+
+
     /** By the second run, or else by the local errors; empty if nothing is known, or moves. */
     std::string
     error_in_time(const Summary &summary)
     {
       const StepDoubling *const second = summary.step_doubling;
-      if (second && !second->failure.empty())
-        return "in time unknown, for the second run failed: " + second->failure;
+      if (second && !second->failure().empty())
+        return "in time unknown, for the second run failed: " + second->failure();
       if (!summary.has_mass || summary.largest_motion == 0.)
         return "";
+      const double by_energy = least_error_by_energy(summary.energy_lost_by_steps());
+      if (by_energy > 0. && !(second && second->best() > by_energy * summary.largest_motion) &&
+          !(summary.error_estimate > by_energy * summary.largest_motion && !second))
+        return "in time more than " + digits(100. * by_energy, 2) +
+               " % of the motion (the steps take " +
+               std::to_string(std::lround(100. * std::min(1., summary.energy_lost_by_steps()))) +
+               " % of its energy; the estimate by " +
+               (second ? second->steps_in_words() : std::string("local errors")) + " is too small)";
       const auto of_motion = [&](const double error) {
         const double percent = 100. * error / summary.largest_motion;
         return (percent < 99.5 ? digits(percent, 2) : std::to_string(std::lround(percent))) +
                " % of the motion (";
       };
       if (second)
-        return "in time " + how_sure(*second) + of_motion(second->best()) + second->name() +
-               order_of(*second) + ")";
+        return "in time " + how_sure(*second) + of_motion(second->best()) +
+               second->steps_in_words() + order_of(*second) + ")";
       if (!summary.local_errors_add_up || !std::isfinite(summary.error_estimate))
         return "";
       const bool large = summary.error_estimate > 0.5 * summary.largest_motion;
@@ -370,7 +395,7 @@ namespace Supple
               << ", " << std::lround(summary.steps / summary.run_seconds) << " steps/s";
     if (summary.has_mass)
       std::cout << "; motion " << summary.largest_motion << " m";
-    if (summary.has_mass && std::isfinite(summary.error_estimate))
+    if (summary.has_mass && summary.local_errors_add_up && std::isfinite(summary.error_estimate))
       std::cout << ", sum of local errors " << summary.error_estimate << " m";
     std::cout << "; " << summary.frames << " frames in " << folder;
     if (!summary.observed)
@@ -382,8 +407,13 @@ namespace Supple
     if (!report.empty())
       line("report", report);
     std::string errors = error_in_time(summary);
+    const auto add     = [&](const std::string &text) {
+      errors += (errors.empty() || text.empty() ? "" : ", ") + text;
+    };
     if (summary.space_errors)
-      errors += (errors.empty() ? "" : ", ") + summary.space_errors->in_words();
+      add(summary.space_errors->in_words());
+    if (summary.second_mesh)
+      add(summary.second_mesh->in_words(summary.cells_lock()));
     if (!errors.empty())
       std::cout << "error: " << errors << std::endl;
   }

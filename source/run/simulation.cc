@@ -27,7 +27,7 @@ namespace Supple
       if (scene.space.aim == 0. || pilots.empty() || pilots.back().error <= scene.space.aim ||
           !errors)
         return "";
-      double error = errors->energy.of_work();
+      double error = errors->of_work();
       for (const ProbeError &probe : errors->probes)
         if (probe.name == pilots.back().of)
           error = std::abs(probe.relative());
@@ -35,7 +35,10 @@ namespace Supple
         return "";
       return scene.origin("Space/Aim") + ": after " + std::to_string(pilots.size()) +
              " refinements the error of " + pilots.back().of + " is still about " +
-             digits(100. * error, 2) + " %; Mesh/Refine allows no more of them.";
+             digits(100. * error, 2) + " %; " +
+             (scene.mesh.refinement.end_of_pilots.empty()
+                ? "Mesh/Refine allows no more of them."
+                : "there can be no more of them. " + scene.mesh.refinement.end_of_pilots);
     }
   } // namespace
 
@@ -54,6 +57,7 @@ namespace Supple
     , integrator(create_integrator(problem.model()))
     , diagnostics(problem.configuration, problem.forces, problem.stationary)
     , second_run(make_second_run())
+    , second_mesh(make_second_mesh())
     , pulses(problem.parameters, problem.mesh.bounding_box)
     , start_displacement(problem.configuration.displacement())
     , results(folder, problem.parameters, communicator)
@@ -78,11 +82,49 @@ namespace Supple
     };
     return std::make_unique<StepDoubling>(problem.parameters.time,
                                           other_run(scene, [] {}),
-                                          third_run);
+                                          third_run,
+                                          course.largest_motion);
   }
 
 
-  StepDoubling::OtherRun
+  std::unique_ptr<SecondMesh>
+  Simulation::make_second_mesh()
+  {
+    const SecondMesh::Kind kind = problem.parameters.space.second_mesh;
+    if (kind == SecondMesh::Kind::none)
+      return nullptr;
+    const std::string origin = problem.parameters.origin("Space/Second mesh");
+    const auto run_of        = [this, &origin](const Parameters &scene) {
+      try
+        {
+          return other_run(scene, [] {});
+        }
+      catch (const InputError &error)
+        {
+          throw InputError(origin + ": on the other mesh the scene is refused. " + error.what());
+        }
+    };
+    const Parameters first  = SecondMesh::with_indices(problem.parameters, problem.body);
+    const Parameters second = SecondMesh::on_other_mesh(first, kind, origin);
+    std::optional<SecondMesh::OtherRun> third;
+    if (kind == SecondMesh::Kind::coarser)
+      try
+        {
+          third = {run_of(SecondMesh::on_other_mesh(second, kind, origin)),
+                   SecondMesh::shared_vertices(second, kind, problem.body)};
+        }
+      catch (const InputError &)
+        {
+          // then there are two meshes, and the order is assumed
+        }
+    const SecondMesh::OtherRun second_run{run_of(second),
+                                          SecondMesh::shared_vertices(first, kind, problem.body)};
+    return std::make_unique<SecondMesh>(
+      problem.body, probes, kind, second_run, third, course.largest_motion);
+  }
+
+
+  Companion::Run
   Simulation::other_run(const Parameters &scene, const std::function<void()> &after_step) const
   {
     const auto other = std::make_shared<Simulation>(scene, "", true, problem.mesh.communicator);
@@ -92,7 +134,9 @@ namespace Supple
           other->advance();
           after_step();
         }
-      return StepDoubling::Arrival{other->time(), other->current_state().displacement};
+      return Companion::Arrival{other->time(),
+                                other->problem.body,
+                                other->current_state().displacement};
     };
   }
 
@@ -156,7 +200,9 @@ namespace Supple
     listeners.add(&pulses);
     listeners.add(guest);
     listeners.add(second_run.get());
-    listeners.add(results.add<ErrorTable>(history && second_run, effort, second_run.get()));
+    listeners.add(second_mesh.get());
+    listeners.add(results.add<ErrorTable>(
+      history && (second_run || second_mesh), effort, second_run.get(), second_mesh.get()));
     listeners.add(
       checkpoints =
         results.add<Checkpoints>(results.writes, problem, *integrator, asked, course, listeners));
@@ -275,8 +321,8 @@ namespace Supple
   double
   Simulation::own_seconds() const
   {
-    return course.seconds() - (second_run ? second_run->seconds : 0.) -
-           (space ? space->seconds : 0.);
+    return course.seconds() - (second_run ? second_run->seconds() : 0.) -
+           (second_mesh ? second_mesh->seconds() : 0.) - (space ? space->seconds : 0.);
   }
 
 
@@ -369,19 +415,21 @@ namespace Supple
   {
     const double seconds = own_seconds();
     Summary summary(problem.parameters, problem.model());
-    summary.status         = status;
-    summary.warnings       = description().warnings();
-    summary.integrator     = integrator->name();
-    summary.stable_step    = integrator->stable_step();
-    summary.steps          = course.now.step;
-    summary.setup_seconds  = course.setup_seconds;
-    summary.run_seconds    = seconds;
-    summary.error_estimate = course.error_estimate;
+    summary.status           = status;
+    summary.warnings         = description().warnings();
+    summary.integrator       = integrator->name();
+    summary.stable_step      = integrator->stable_step();
+    summary.steps            = course.now.step;
+    summary.setup_seconds    = course.setup_seconds;
+    summary.run_seconds      = seconds;
+    summary.estimate_seconds = space ? space->seconds : 0.;
+    summary.error_estimate   = course.error_estimate;
     // Formulas of first order are embedded in these: their errors say nothing of the run's.
     const TimeMethod method     = problem.parameters.time.method;
     summary.local_errors_add_up = method != TimeMethod::sdirk2 && method != TimeMethod::explicit2;
     summary.largest_motion      = course.largest_motion;
     summary.step_doubling       = second_run.get();
+    summary.second_mesh         = second_mesh.get();
     if (space)
       summary.space_errors = space->at_the_end();
     if (summary.space_errors)
@@ -390,12 +438,13 @@ namespace Supple
     const std::string missed = missed_aim(problem.parameters, summary.space_errors);
     if (!missed.empty())
       summary.warnings.push_back(missed);
-    summary.frames   = frames ? frames->written().n_written() : 0;
-    summary.history  = results.writes_history;
-    summary.probes   = results.writes_history && !probes.empty();
-    summary.observed = observed;
-    summary.last     = course.now;
-    summary.extremes = diagnostics.extremes();
+    summary.frames     = frames ? frames->written().n_written() : 0;
+    summary.history    = results.writes_history;
+    summary.probes     = results.writes_history && !probes.empty();
+    summary.observed   = observed;
+    summary.has_energy = problem.forces.have_energy();
+    summary.last       = course.now;
+    summary.extremes   = diagnostics.extremes();
     return summary;
   }
 } // namespace Supple

@@ -18,8 +18,7 @@ namespace Supple
     // Below it other errors are larger.
     constexpr double least_told = 1e-4;
 
-    const std::string cure   = "Material/Volumetric locking cure = patches";
-    const std::string forces = "the forces that move it";
+    const std::string cure = "Material/Volumetric locking cure = patches";
 
 
     std::string
@@ -43,19 +42,41 @@ namespace Supple
 
 
   std::string
+  SpaceErrors::of_energy_in_words() const
+  {
+    const bool at_least = energy.locks() || energy.rough;
+    switch (of)
+      {
+        case Of::work:
+          return part_of(of_work(), at_least, "the work of the loads");
+        case Of::forces:
+          return part_of(energy.of_forces(), at_least, "the forces that move it");
+        case Of::stress:
+          return part_of(energy.relative_norm(), at_least, "the stress");
+        default:
+          if (over_run.of_work() > largest_told_error)
+            return part_of(over_run.of_work(), at_least, "the elastic energy");
+          return "a swing too quick by " + std::string(at_least ? "more than " : "") +
+                 percent(over_run.of_frequency());
+      }
+  }
+
+
+  std::string
   SpaceErrors::in_words() const
   {
-    const bool lock        = energy.locks();
-    const std::string mesh = lock ? " (mesh; cells lock)" : " (mesh)";
-    if (!probes.empty() && of != forces)
-      return "in space " + part_of(std::abs(probes.front().relative()), lock, probes.front().name) +
-             mesh;
+    const std::string mesh = energy.locks() ? " (mesh; cells lock)"
+                             : energy.rough ? " (mesh; too few cells through the body)"
+                                            : " (mesh)";
+    if (!probes.empty() && of != Of::forces)
+      return "in space " +
+             part_of(std::abs(probes.front().relative()),
+                     energy.locks() || energy.rough,
+                     probes.front().name) +
+             (of == Of::stress ? ", " + of_energy_in_words() : "") + mesh;
     if (!unknown.empty())
       return "in space unknown, for " + unknown;
-    if (stationary || energy.of_work() > largest_told_error)
-      return "in space " + part_of(energy.of_work(), lock, of) + mesh;
-    return "in space a swing too quick by " + std::string(lock ? "more than " : "") +
-           percent(energy.of_frequency()) + mesh;
+    return "in space " + of_energy_in_words() + mesh;
   }
 
 
@@ -80,14 +101,18 @@ namespace Supple
     nlohmann::ordered_json json = {{"time", time}};
     if (!unknown.empty())
       json["unknown"] = unknown;
-    else if (energy.of_work() > largest_told_error)
+    else if (of_work() > largest_told_error)
       json["more_than"] = largest_told_error;
     else
       json.update({{"energy", energy.relative_norm()},
-                   {"work", energy.of_work()},
-                   {"frequency", energy.of_frequency()}});
-    if (json.contains("work") && of == forces)
-      json["forces"] = -energy.of_work();
+                   {"work", of_work()},
+                   {"frequency", over_run.of_frequency()}});
+    if (json.contains("work") && of == Of::stress)
+      json.erase("work");
+    if (json.contains("work") && of == Of::forces && energy.of_forces() <= largest_told_error)
+      json["forces"] = -energy.of_forces();
+    if (energy.rough)
+      json["rough"] = true;
     if (energy.lock_ratio)
       json["lock_ratio"] = *energy.lock_ratio;
     for (const ProbeError &probe : probes)
@@ -122,10 +147,25 @@ namespace Supple
 
 
   bool
+  SpaceEstimate::is_time_to_look(const Measurement &now)
+  {
+    constexpr unsigned int looks = 8, least_steps = 50;
+    if (problem.stationary || now.time < next_look || now.step < step_of_look + least_steps)
+      return false;
+    next_look    = now.time + integrator.end / looks;
+    step_of_look = now.step;
+    return true;
+  }
+
+
+  bool
   SpaceEstimate::after_step(const Observation &now)
   {
-    const bool each = problem.parameters.space.estimate == SpaceParameters::Estimate::frames;
-    if (!now.last && !(each && frame_due(now.measurement)))
+    most_kinetic     = std::max(most_kinetic, now.measurement.kinetic);
+    most_elastic     = std::max(most_elastic, now.measurement.elastic);
+    const bool each  = problem.parameters.space.estimate == SpaceParameters::Estimate::frames;
+    const bool shown = now.last || (each && frame_due(now.measurement));
+    if (!shown && !is_time_to_look(now.measurement))
       return true;
     const PhaseTimer timer(problem.effort, Phase::diagnostics);
     const Stopwatch stopwatch;
@@ -133,12 +173,23 @@ namespace Supple
     const SpaceErrors errors = estimate(now);
     problem.effort           = of_run; // dual solutions are no part of it
     const bool known         = errors.unknown.empty();
-    cell_errors.step         = now.measurement.step;
-    cell_errors.of_cells     = known ? space_error->of_cells() : std::vector<float>();
+    if (known)
+      {
+        over_run.square += errors.energy.square;
+        over_run.of_patches += errors.energy.of_patches;
+        over_run.strain_energy += errors.energy.strain_energy;
+      }
+    seconds += stopwatch.seconds();
+    if (!shown)
+      return true;
+    cell_errors.step     = now.measurement.step;
+    cell_errors.of_cells = known ? space_error->of_cells() : std::vector<float>();
     of_work = known ? errors.energy.of_work() : std::numeric_limits<double>::quiet_NaN();
     if (now.last)
-      last = errors;
-    seconds += stopwatch.seconds();
+      {
+        last           = errors;
+        last->over_run = over_run;
+      }
     return true;
   }
 
@@ -155,8 +206,7 @@ namespace Supple
   {
     const Configuration &configuration = problem.configuration;
     SpaceErrors errors;
-    errors.time       = now.measurement.time;
-    errors.stationary = problem.stationary;
+    errors.time = now.measurement.time;
     if (!problem.forces.have_energy())
       {
         errors.unknown = "the forces have no elastic energy";
@@ -172,13 +222,11 @@ namespace Supple
         problem.body.initialize(loads);
       }
     problem.forces.set_loads(loads, configuration, problem.stationary ? 1. : errors.time);
-    errors.energy     = space_error->estimate();
-    errors.unknown    = obstacle(errors.energy, now.measurement.kinetic);
-    const bool moved  = body_is_moved();
-    const bool loaded = loads.l2_norm() > 0.;
-    errors.of         = "the elastic energy";
-    if (problem.stationary && moved != loaded)
-      errors.of = moved ? forces : "the work of the loads";
+    if (problem.stationary)
+      loads *= errors.time;
+    errors.energy  = space_error->estimate();
+    errors.unknown = obstacle(errors.energy, now.measurement.kinetic);
+    errors.of      = kind_of_error();
     if (now.last && problem.stationary && errors.unknown.empty())
       add_probes(errors);
     if (errors.unknown.empty() && points->matter(integrator.reactions(), loads))
@@ -186,6 +234,20 @@ namespace Supple
         "a force acts at a point or along a line, where the exact strain energy is "
         "infinite";
     return errors;
+  }
+
+
+  SpaceErrors::Of
+  SpaceEstimate::kind_of_error() const
+  {
+    constexpr double slow = 1e-3; // kinetic energy, as a part of the elastic one
+    using Of              = SpaceErrors::Of;
+    if (!problem.stationary && most_kinetic > slow * most_elastic)
+      return Of::swing;
+    const bool moved = body_is_moved(), loaded = loads.l2_norm() > 0.;
+    if (moved != loaded)
+      return moved ? Of::forces : Of::work;
+    return Of::stress;
   }
 
 
@@ -216,6 +278,8 @@ namespace Supple
     const double least = round_off * round_off * stiffness * problem.mesh.volume;
     if (!(energy.strain_energy > std::max(least, little * kinetic)))
       return "the body has no strain energy to speak of";
+    if (!space_error->recovery.is_everywhere())
+      return "the body has too few cells for an estimate";
     if (energy.is_unknown_by_locking())
       return "the cells lock; " + cure + " helps";
     return "";
@@ -225,7 +289,7 @@ namespace Supple
   void
   SpaceEstimate::add_probes(SpaceErrors &errors)
   {
-    if (probes.empty())
+    if (probes.empty() && !(errors.of == SpaceErrors::Of::work && problem.forces.change_operator()))
       return;
     try
       {
@@ -236,6 +300,13 @@ namespace Supple
                           *problem.solver,
                           problem.effort);
         errors.probes = duals.find(probes, *points);
+        if (errors.of == SpaceErrors::Of::work && problem.forces.change_operator())
+          errors.work = duals.find_of_work(loads);
+        const auto &pilots = problem.parameters.mesh.refinement.pilots;
+        if (!pilots.empty()) // what the mesh was refined for comes first
+          std::stable_partition(errors.probes.begin(), errors.probes.end(), [&](const auto &probe) {
+            return probe.name == pilots.back().of;
+          });
       }
     catch (const ComputationError &error)
       {

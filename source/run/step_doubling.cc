@@ -3,6 +3,8 @@
 #include <supple/base/error.h>
 #include <supple/base/stopwatch.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -32,10 +34,7 @@ namespace Supple
   Parameters
   StepDoubling::second_scene(const Parameters &scene)
   {
-    Parameters second          = scene;
-    second.time.estimate_error = false;
-    second.output.history      = false;
-    second.output.frames       = OutputParameters::Frames::none;
+    Parameters second = Companion::scene(scene);
     if (scene.time.has_variable_steps())
       for (double *tolerance : {&second.time.relative_tolerance,
                                 &second.time.displacement_tolerance,
@@ -51,19 +50,21 @@ namespace Supple
 
 
   StepDoubling::StepDoubling(const TimeParameters &time,
-                             const OtherRun &second_run,
-                             const std::function<OtherRun()> &make_third_run)
+                             const Companion::Run &second_run,
+                             const std::function<Companion::Run()> &make_third_run,
+                             const double &motion)
     : order(time.order())
     , variable_steps(time.has_variable_steps())
     , gain(gain_of(time))
     , second_run(second_run)
     , make_third_run(make_third_run)
+    , motion(motion)
   {
   }
 
 
   std::string
-  StepDoubling::name() const
+  StepDoubling::steps_in_words() const
   {
     if (variable_steps)
       return of_three ? "a tenth and a hundredth of the tolerances" : "a tenth of the tolerances";
@@ -71,65 +72,63 @@ namespace Supple
   }
 
 
-  void
-  StepDoubling::begin(const Observation &now, const bool /* resumed */)
-  {
-    start = now.state.displacement;
-  }
-
-
   bool
   StepDoubling::after_step(const Observation &now)
   {
-    motion    = std::max(motion, largest_vertex_distance(now.state.displacement, start));
     error_now = follow(now.measurement.time, now.state.displacement);
-    if (now.last && compared && failure.empty() && largest > large * motion)
-      add_third_run();
+    if (now.last && failure().empty() && largest > large * motion)
+      {
+        if (from_before)
+          third_failure = "the error was largest before the run went on from a checkpoint";
+        else
+          add_third_run();
+      }
     return true;
+  }
+
+
+  nlohmann::json
+  StepDoubling::save() const
+  {
+    return largest;
+  }
+
+
+  void
+  StepDoubling::load(const nlohmann::json &saved)
+  {
+    largest     = saved;
+    from_before = true;
   }
 
 
   void
   StepDoubling::end(const Observation & /* now */)
   {
-    if (!compared && failure.empty())
-      failure = "up to the end the two runs have no time in common";
+    second_run.require_meeting();
   }
 
 
   std::optional<double>
   StepDoubling::follow(const double time, const Vector &displacement)
   {
-    if (!failure.empty())
+    const std::optional<Companion::Arrival> second = second_run.move_to(time);
+    if (!second)
       return {};
-    const Stopwatch stopwatch;
-    std::optional<Arrival> second;
-    try
-      {
-        second.emplace(second_run(time));
-      }
-    catch (const ComputationError &error)
-      {
-        failure = error.what();
-      }
-    seconds += stopwatch.seconds();
-    if (!second || std::abs(second->time - time) > 1e-9 * time)
-      return {};
-
     last = gain / (gain - 1.) * largest_vertex_distance(displacement, second->displacement);
     if (!std::isfinite(last))
       {
-        failure = "its motion is too large to be compared";
+        second_run.failure = "its motion is too large to be compared";
         return {};
       }
-    if (!compared || last > largest)
+    if (last >= largest)
       {
+        from_before       = false;
         largest           = last;
         time_of_largest   = time;
         first_at_largest  = displacement;
         second_at_largest = second->displacement;
       }
-    compared = true;
     return last;
   }
 
@@ -140,8 +139,8 @@ namespace Supple
     const Stopwatch stopwatch;
     try
       {
-        const OtherRun third_run = make_third_run();
-        const Arrival third      = third_run(time_of_largest);
+        const Companion::Run third_run = make_third_run();
+        const Companion::Arrival third = third_run(time_of_largest);
         if (std::abs(third.time - time_of_largest) <= 1e-9 * time_of_largest)
           of_three = observe(largest_vertex_distance(first_at_largest, second_at_largest),
                              largest_vertex_distance(second_at_largest, third.displacement),
@@ -153,7 +152,7 @@ namespace Supple
       {
         third_failure = error.what();
       }
-    seconds += stopwatch.seconds();
+    third_seconds = stopwatch.seconds();
   }
 
 

@@ -129,18 +129,19 @@ namespace Supple
       };
       Json json = {{"sum_of_local_errors", summary.error_estimate},
                    {"largest_motion", summary.largest_motion},
-                   {"relative", relative(summary.error_estimate)}};
+                   {"relative", relative(summary.error_estimate)},
+                   {"energy_lost", summary.energy_lost_by_steps()}};
       if (const StepDoubling *const doubling = summary.step_doubling)
         {
           Json &second = json["step_doubling"];
-          second       = {{"second_run", doubling->name()}, {"seconds", doubling->seconds}};
-          if (doubling->failure.empty())
+          second = {{"second_run", doubling->steps_in_words()}, {"seconds", doubling->seconds()}};
+          if (doubling->failure().empty())
             second.update({{"largest", doubling->best()},
                            {"at_the_end", doubling->last},
                            {"relative", relative(doubling->best())},
                            {"order_of_method", doubling->order}});
           else
-            second["failed"] = doubling->failure;
+            second["failed"] = doubling->failure();
           if (doubling->observed())
             {
               second["by_second_run"] = doubling->largest;
@@ -219,6 +220,8 @@ namespace Supple
       Json &seconds    = json["seconds"];
       seconds["setup"] = summary.setup_seconds;
       seconds["run"]   = summary.run_seconds;
+      if (summary.space_errors)
+        seconds["error_in_space"] = summary.estimate_seconds;
       for (unsigned int phase = 0; phase < phase_names.size(); ++phase)
         seconds[phase_names[phase]] = summary.effort.seconds[phase];
     }
@@ -279,6 +282,8 @@ namespace Supple
       json["error_estimate"] = errors(*this);
     if (space_errors)
       json["error_estimate"]["space"] = space_errors->to_json();
+    if (second_mesh)
+      json["error_estimate"]["second_mesh"] = second_mesh->to_json(cells_lock());
     if (observed)
       {
         json["last"]     = energies(last);

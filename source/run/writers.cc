@@ -4,7 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 
 namespace Supple
 {
@@ -283,9 +286,13 @@ namespace Supple
   }
 
 
-  ErrorTable::ErrorTable(const std::string &folder, Effort &effort, const StepDoubling *second_run)
+  ErrorTable::ErrorTable(const std::string &folder,
+                         Effort &effort,
+                         const StepDoubling *const second_run,
+                         const SecondMesh *const second_mesh)
     : Writer(folder, effort)
     , second_run(second_run)
+    , second_mesh(second_mesh)
   {
   }
 
@@ -298,10 +305,16 @@ namespace Supple
 
 
   void
-  ErrorTable::open(const bool /* resumed */, const unsigned int /* step */)
+  ErrorTable::open(const bool resumed, const unsigned int step)
   {
-    table = std::make_unique<CsvFile>(folder + "/" + files()[0],
-                                      std::vector<std::string>{"step", "time", "error"});
+    std::vector<std::string> columns = {"step", "time"};
+    if (second_run)
+      columns.push_back("error");
+    if (second_mesh)
+      columns.push_back("distance_of_meshes");
+    const std::string file = folder + "/" + files()[0];
+    table                  = resumed ? std::make_unique<CsvFile>(file, columns, step)
+                                     : std::make_unique<CsvFile>(file, columns);
   }
 
 
@@ -314,9 +327,17 @@ namespace Supple
   bool
   ErrorTable::after_step(const Observation &now)
   {
-    const std::optional<double> error = second_run->error();
-    if (error && table)
-      table->write_row({double(now.measurement.step), now.measurement.time, *error});
+    const double unknown    = std::numeric_limits<double>::quiet_NaN();
+    std::vector<double> row = {double(now.measurement.step), now.measurement.time};
+    if (second_run)
+      row.push_back(second_run->error().value_or(unknown));
+    if (second_mesh)
+      row.push_back(second_mesh->distance().value_or(unknown));
+    const bool known = std::any_of(row.begin() + 2, row.end(), [](const double number) {
+      return std::isfinite(number);
+    });
+    if (known && table)
+      table->write_row(row);
     return true;
   }
 } // namespace Supple

@@ -6,6 +6,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <sstream>
+#include <tuple>
 
 namespace Supple
 {
@@ -74,6 +75,11 @@ namespace Supple
                              "static); a dynamic one can be refined so many times (Mesh/Refine).");
           return;
         }
+      if (parameters.space.aim > 0. &&
+          parameters.space.estimate == SpaceParameters::Estimate::never)
+        throw InputError(parameters.origin("Space/Estimate error") +
+                         ": without an estimate nobody can say whether " +
+                         parameters.origin("Space/Aim") + " is met; it must be end or frames.");
       if (parameters.damping.any())
         throw InputError(
           parameters.origin("Time/Problem") +
@@ -107,6 +113,45 @@ namespace Supple
     }
 
 
+    /** What each vertex has by itself is more on a finer mesh, so that errors of the mesh mean
+     * nothing. */
+    void
+    check_other_meshes(const Parameters &parameters)
+    {
+      std::string asks;
+      if (parameters.space.second_mesh != SpaceParameters::SecondMesh::none)
+        asks = "Space/Second mesh";
+      else if (!parameters.mesh.refinement.by.empty())
+        asks = "Mesh/Refine";
+      else if (parameters.space.aim > 0.)
+        asks = "Space/Aim";
+      else if (!parameters.mesh.refinement.region.empty())
+        asks = "Mesh/Refine region";
+      else
+        return;
+      const LoadParameters &loads = parameters.loads;
+      const auto one_vertex       = [&](const std::string &word) {
+        return loads.nodal_force_on.rfind(word, 0) == 0;
+      };
+      const bool forces =
+        !Expression(loads.nodal_force, 3, parameters.origin("Loads/Nodal force")).is_zero() &&
+        !one_vertex("vertex ") && !one_vertex("nearest to ");
+      for (const auto &[by_vertex, entry, instead] :
+           {std::make_tuple(forces, "Loads/Nodal force", "take Loads/Traction or Loads/Body force"),
+            std::make_tuple(parameters.material.vertex_mass > 0.,
+                            "Material/Mass per vertex",
+                            "take Material/Density"),
+            std::make_tuple(parameters.damping.viscous > 0.,
+                            "Damping/Viscous",
+                            "take Damping/Mass factor")})
+        if (by_vertex)
+          throw InputError(parameters.origin(asks) +
+                           ": a mesh with more vertices is another body " +
+                           "where each vertex has its own share (" + parameters.origin(entry) +
+                           "); " + instead + ".");
+    }
+
+
     void
     check(const Parameters &parameters)
     {
@@ -116,6 +161,7 @@ namespace Supple
       parameters.plane.check(parameters.file);
       check_warp_tolerance(parameters);
       check_problem(parameters);
+      check_other_meshes(parameters);
     }
   } // namespace
 

@@ -56,8 +56,9 @@ namespace Supple
   void
   Study::check_parameters() const
   {
-    for (const PlannedRun &run : plan.references)
-      plan.parameters(run);
+    for (const auto &list : {plan.references, plan.level_references})
+      for (const PlannedRun &run : list)
+        plan.parameters(run);
     if (plan.kind == StudyPlan::Kind::cases)
       return; // a refusal is a result there
     for (const PlannedRun &run : plan.runs)
@@ -69,9 +70,10 @@ namespace Supple
   Study::check() const
   {
     say("Study " + parameters.name + " of scene " + plan.base.scene_name + ": " +
-        std::to_string(plan.runs.size()) + " runs and " + std::to_string(plan.references.size()) +
+        std::to_string(plan.runs.size()) + " runs and " +
+        std::to_string(plan.references.size() + plan.level_references.size()) +
         " for the reference");
-    for (const auto &list : {plan.references, plan.runs})
+    for (const auto &list : {plan.references, plan.level_references, plan.runs})
       for (const PlannedRun &run : list)
         {
           std::string result = "can be run";
@@ -135,8 +137,9 @@ namespace Supple
   {
     const InterruptGuard interrupt;
     const Stopwatch stopwatch;
-    for (const PlannedRun &run : plan.references)
-      runner.check(plan.parameters(run)); // what is refused leaves an earlier study as it is
+    for (const auto &list : {plan.references, plan.level_references})
+      for (const PlannedRun &run : list)
+        runner.check(plan.parameters(run)); // what is refused leaves an earlier study as it is
     open_output();
     say("Supple " SUPPLE_VERSION ", study " + parameters.name + ": " +
         std::to_string(plan.runs.size()) + " runs of scene " + plan.base.scene_name);
@@ -145,6 +148,7 @@ namespace Supple
         run_references();
         for (const PlannedRun &run : plan.runs)
           {
+            run_level_reference(run);
             table.add(run_one(run));
             say(table.line(table.rows.back()));
             write(false);
@@ -216,6 +220,34 @@ namespace Supple
         say("  its own error: " + percent(table.reference_error));
       }
     table.facts.push_back(text + ".");
+    const auto in_space = reference->summary.find("error_estimate/space/work");
+    if (!plan.level_references.empty())
+      table.facts.push_back(
+        "The mesh of the reference has an error of its own, by which errors in space may be "
+        "wrong: " +
+        (in_space == reference->summary.end()
+           ? "it is not known"
+           : "about " + percent(in_space->second) + " of the elastic energy") +
+        ".");
+  }
+
+
+  void
+  Study::run_level_reference(const PlannedRun &run)
+  {
+    if (run.level.empty() || (level_reference && level_of_reference == run.level))
+      return;
+    const auto planned =
+      std::find_if(plan.level_references.begin(),
+                   plan.level_references.end(),
+                   [&](const PlannedRun &other) { return other.level == run.level; });
+    level_reference    = runner.record(plan.parameters(*planned), "");
+    level_of_reference = run.level;
+    if (level_reference->status != StudyRecord::Status::done)
+      throw ComputationError("The reference (" + planned->label() +
+                             ") failed: " + level_reference->reason);
+    say("  reference: " + planned->label() + ", " + digits(level_reference->seconds, 3) +
+        " s, in space " + percent(quantities.errors(*level_reference, &*reference).front()));
   }
 
 
@@ -277,8 +309,13 @@ namespace Supple
     if (plan.kind == StudyPlan::Kind::methods)
       row.size = record.end / record.steps;
     row.values = quantities.values(record);
-    if (record.status == StudyRecord::Status::done)
-      row.errors = quantities.errors(record, reference ? &*reference : nullptr);
+    if (record.status != StudyRecord::Status::done)
+      return;
+    row.errors = quantities.errors(record, reference ? &*reference : nullptr);
+    if (!level_reference)
+      return;
+    row.error_in_space = quantities.errors(*level_reference, &*reference).front();
+    row.error_in_time  = quantities.errors(record, &*level_reference).front();
   }
 
 

@@ -59,7 +59,8 @@ namespace Supple
       "Compares meshes from coarse to fine, such as 1 [Mesh/Box cubes=2, 8, 2]; 0.5 [Mesh/Box "
       "cubes=4, 16, 4]. Names that are numbers are the sizes of the cells, from which the observed "
       "order follows; otherwise it follows from the cube root of the volume per cell, or from the "
-      "root of a triangle's area. Unit: m. "
+      "root of a triangle's area. With Methods too: all methods are run on each of these meshes, "
+      "and the errors in space and in time are told beside the whole error. Unit: m. "
       "Range: name [overrides], set apart by semicolons.",
       any);
     prm.add_parameter("Variants",
@@ -90,7 +91,7 @@ namespace Supple
 
 
   void
-  StudyParameters::declare_errors(ParameterHandler &prm)
+  StudyParameters::declare_references(ParameterHandler &prm)
   {
     const dealii::Patterns::Anything any;
     prm.add_parameter(
@@ -103,12 +104,29 @@ namespace Supple
       "last one counts. Unit: none. Range: as one of the methods or levels.",
       any);
     prm.add_parameter(
+      "Reference level",
+      reference_level,
+      "With Methods and Levels: the mesh on which the Reference is run. On each of the levels it "
+      "is "
+      "run as well: the distance of a run to that is its error in time, and the distance of that "
+      "to "
+      "the one on this mesh is the error in space of the level. Unit: none. Range: as one of the "
+      "levels.",
+      any);
+    prm.add_parameter(
       "Exact",
       exact,
       "Exact values in place of a reference. With Methods of columns of history.csv or probes.csv "
       "over time, such as tip.uz: 0.1*cos(7*t); with Levels and Cases of Columns, such as sag: "
       "-0.114. Unit: that of the column. Range: name: expression of t, set apart by semicolons.",
       any);
+  }
+
+
+  void
+  StudyParameters::declare_errors(ParameterHandler &prm)
+  {
+    const dealii::Patterns::Anything any;
     prm.add_parameter(
       "Quantities",
       quantities,
@@ -156,6 +174,7 @@ namespace Supple
   {
     prm.enter_subsection(section);
     declare_runs(prm);
+    declare_references(prm);
     declare_errors(prm);
     prm.leave_subsection();
   }
@@ -178,16 +197,26 @@ namespace Supple
   {
     if (scene.empty())
       throw InputError(place("Scene") + ": a study needs a scene.");
-    const int n_kinds = !methods.empty() + !levels.empty() + !cases.empty();
+    const bool both   = !methods.empty() && !levels.empty();
+    const int n_kinds = (!methods.empty() || !levels.empty()) + !cases.empty();
     if (n_kinds != 1)
       throw InputError(place("Methods") + ": " + (n_kinds == 0 ? "none" : "more than one") +
-                       " of Methods, Levels and Cases is set; a study has one of them.");
+                       " of Methods, Levels and Cases is set; a study has one of them, or Methods "
+                       "and Levels.");
+    if (both && (reference.empty() || reference_level.empty() || !exact.empty()))
+      throw InputError(place("Levels") +
+                       ": with Methods they need a Reference and the Reference level on which it "
+                       "is run, in place of Exact values.");
+    if (!both && !reference_level.empty())
+      throw InputError(place("Reference level") + ": it goes with Methods and Levels together.");
+    if (both && !variants.empty())
+      throw InputError(place("Variants") + ": they go with Levels without Methods.");
     if (!variants.empty() && levels.empty())
       throw InputError(place("Variants") + ": they go with Levels.");
     if (!methods.empty() && reference.empty() == exact.empty())
       throw InputError(place("Methods") + ": methods are compared with a Reference or with Exact " +
                        "values; " + (exact.empty() ? "neither" : "not both") + " is right.");
-    if (!levels.empty() && (columns.empty() || reference.empty() == exact.empty()))
+    if (!levels.empty() && !both && (columns.empty() || reference.empty() == exact.empty()))
       throw InputError(place("Levels") +
                        ": levels need Columns, and a Reference or Exact values of these.");
     if (!cases.empty() && columns.empty())

@@ -12,6 +12,7 @@
 #include <regex>
 #include <set>
 #include <sstream>
+#include <utility>
 
 namespace Supple
 {
@@ -27,6 +28,19 @@ namespace Supple
       for (const PlannedRun &run : runs)
         if (!names.insert(run.folder_name()).second)
           throw InputError(place + ": '" + run.label() + "' is there twice.");
+    }
+
+
+    /** A run on a level. */
+    PlannedRun
+    on_level(const StudyItem &level, const PlannedRun &run)
+    {
+      PlannedRun result = run;
+      result.level      = level.name;
+      result.curve      = level.name + ", " + run.curve;
+      result.overrides  = level.overrides; // those of the method are stronger
+      result.overrides.insert(result.overrides.end(), run.overrides.begin(), run.overrides.end());
+      return result;
     }
 
 
@@ -46,7 +60,8 @@ namespace Supple
   std::string
   PlannedRun::label() const
   {
-    return series.empty() ? name : series + ", " + name;
+    const std::string what = level.empty() ? series : level + ", " + series;
+    return what.empty() ? name : what + ", " + name;
   }
 
 
@@ -83,7 +98,7 @@ namespace Supple
 
 
   StudyPlan::StudyPlan(const StudyParameters &study)
-    : kind(!study.methods.empty()  ? Kind::methods
+    : kind(!study.methods.empty()  ? Kind::methods // on one level or on several
            : !study.levels.empty() ? Kind::levels
                                    : Kind::cases)
     , base(study.read_scene())
@@ -93,6 +108,8 @@ namespace Supple
       {
         case Kind::methods:
           plan_methods(study);
+          if (!study.levels.empty())
+            plan_methods_on_levels(study);
           break;
         case Kind::levels:
           plan_levels(study);
@@ -237,6 +254,29 @@ namespace Supple
     const std::string finer = (word == "step" ? "(" + number + ")/2" : "(" + number + ")/10");
     references              = {method_run(items[0], word, number, place),
                                method_run(items[0], word, finer, place)};
+  }
+
+
+  void
+  StudyPlan::plan_methods_on_levels(const StudyParameters &study)
+  {
+    const std::string place                  = study.place("Levels");
+    const std::vector<PlannedRun> of_methods = std::move(runs);
+    runs.clear();
+    for (const StudyItem &level : study_items(study.levels, place))
+      {
+        for (const PlannedRun &run : of_methods)
+          runs.push_back(on_level(level, run));
+        level_references.push_back(on_level(level, references.back()));
+      }
+    check_names(runs, place);
+    const std::string place_of_reference = study.place("Reference level");
+    const auto items                     = study_items(study.reference_level, place_of_reference);
+    if (items.size() != 1)
+      throw InputError(place_of_reference + ": it must be one mesh, such as fine [Mesh/Box " +
+                       "cubes=16, 64, 16].");
+    for (PlannedRun &run : references)
+      run = on_level(items[0], run);
   }
 
 

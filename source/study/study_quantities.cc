@@ -140,6 +140,10 @@ namespace Supple
           throw InputError(plan.changed_by_hand({"Probes/Points"}) + place +
                            ": the scene follows no point (Probes/Points); take 'final "
                            "field' or energy.");
+        if (name == "final field" && !plan.level_references.empty())
+          throw InputError(place +
+                           ": on another mesh there are other vertices than those of the "
+                           "final field; take probes, energy or a column.");
         if (name != "probes" && name != "final field" && name != "energy")
           check_column(name, place);
         quantities.push_back(name);

@@ -73,6 +73,7 @@ namespace Supple
       const bool methods = table.kind == StudyPlan::Kind::methods;
       const bool levels  = table.kind == StudyPlan::Kind::levels;
       Column series{methods ? "method" : "variant", methods ? "method" : "variant", {}, {}};
+      Column level{"level", "level", {}, {}};
       Column name{methods  ? "run"
                   : levels ? "level"
                            : "case",
@@ -85,6 +86,7 @@ namespace Supple
       Column cells{"cells", "cells", {}, {}}, size{methods ? "mean_step" : "cell_size", "", {}, {}};
       for (const StudyRow &row : table.rows)
         {
+          level.add(row.run.level);
           series.add(row.run.series);
           name.add(row.run.name);
           step.add(or_nothing(row.run.step), "");
@@ -92,15 +94,31 @@ namespace Supple
           cells.add(or_nothing(row.n_cells), std::to_string(row.n_cells));
           size.add(or_nothing(row.size), "");
         }
+      if (table.on_levels())
+        columns.push_back(level);
       if (methods || levels)
         columns.push_back(series);
       columns.push_back(name);
       if (methods)
         columns.insert(columns.end(), {step, tolerance});
-      if (levels)
+      if (levels || table.on_levels())
         columns.push_back(cells);
       if (methods || levels)
         columns.push_back(size);
+    }
+
+
+    /** What of the whole error is of the mesh, and what of the steps. */
+    void
+    add_both_errors(std::vector<Column> &columns, const StudyTable &table)
+    {
+      Column space{"error_in_space", "in space", {}, {}}, time{"error_in_time", "in time", {}, {}};
+      for (const StudyRow &row : table.rows)
+        {
+          space.add(row.error_in_space, percent(row.error_in_space));
+          time.add(row.error_in_time, percent(row.error_in_time));
+        }
+      columns.insert(columns.end(), {space, time});
     }
 
 
@@ -131,6 +149,12 @@ namespace Supple
               column.add(error, percent(error) + (unclear ? " (?)" : ""));
             }
           columns.push_back(column);
+          if (table.on_levels())
+            {
+              if (i == 0)
+                add_both_errors(columns, table);
+              continue;
+            }
           if (table.kind == StudyPlan::Kind::cases ||
               (i > 0 && table.kind == StudyPlan::Kind::methods))
             continue;
@@ -229,6 +253,15 @@ namespace Supple
     for (const std::string &warning : warnings)
       text += (text.empty() ? "" : " ") + warning;
     return text;
+  }
+
+
+  bool
+  StudyTable::on_levels() const
+  {
+    return std::any_of(rows.begin(), rows.end(), [](const StudyRow &row) {
+      return !row.run.level.empty();
+    });
   }
 
 
@@ -344,7 +377,9 @@ namespace Supple
     if (kind == StudyPlan::Kind::cases)
       return text;
 
-    text += "\n`*`: no other run is both better and quicker. Order: observed, from the row above.";
+    text += "\n`*`: no other run is both better and quicker.";
+    text += on_levels() ? " In space: of the level's own reference. In time: against that."
+                        : " Order: observed, from the row above.";
     if (reference_error > 0.)
       text += " (?): less than three times the reference's own error.";
     text += "\n\nSoonest at an error of\n\n";

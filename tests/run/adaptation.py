@@ -3,6 +3,8 @@ and what is refused."""
 
 import pathlib
 import re
+import signal
+import subprocess
 import sys
 import tempfile
 
@@ -94,7 +96,36 @@ for aim in (1, -0.1, "1 %"):
     refused({"Space/Aim": aim}, "Space/Aim", "greater than 0 and less than 1")
 refused({"Mesh/Refine": "1 by clamp.uz"}, "clamp.uz", "held, does not move")
 refused({"Mesh/Refine": "5 by energy", "Mesh/Refine most cells": 1000}, "The pilot run on", "the mesh would have", "Mesh/Refine most cells = 1000")
-refused({"Space/Aim": 0.001, "Mesh/Refine most cells": 3000}, "with an error of about", "the mesh would have", "Mesh/Refine most cells = 3000")
+for text in ("-4294967295 by energy", "3by energy", "3 by", "0 by energy"):
+    refused({"Mesh/Refine": text}, "Mesh/Refine", "N by QUANTITY")
+refused({"Space/Aim": 0.1, "Space/Estimate error": "never"}, "Space/Estimate error", "Space/Aim")
+refused({"Mesh/Refine region": "1/0"}, "Mesh/Refine region", "not a finite number")
+
+# An aim that the mesh can't meet within its cells: the run is on the last mesh that can be, and says so.
+outcome = runner.run(runner.STATIC, "--output", folder / "limit",
+                     *runner.overrides({**QUIET, "Space/Aim": 0.001, "Mesh/Refine most cells": 3000}))
+runner.accepted(outcome, ["refinements the error of", "there can be no more of them", "Mesh/Refine most cells = 3000"], "an aim beyond the cells")
+refused({"Space/Aim": 0.001, "Mesh/Refine most cells": 300, "Mesh/Refine region": "1"}, "the mesh would have")
+
+# Ctrl-C ends the pilot runs.
+process = subprocess.Popen([runner.SUPPLE, runner.STATIC, "--output", folder / "stopped", *runner.overrides({"Space/Aim": 0.0005})],
+                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=runner.ENVIRONMENT)
+process.stdout.readline()  # a pilot run is done
+process.send_signal(signal.SIGINT)
+_, error = process.communicate(timeout=100 * runner.PATIENCE)
+runner.check(process.returncode == 2 and "Interrupted" in error and "pilot run" in error and not (folder / "stopped").exists(), f"{process.returncode} {error}")
+
+# Regions of the boundary are those of the mesh before the pilot runs: the load stays what it is.
+PRESSED = {**QUIET, "Loads/Gravity": "0, 0, 0", "Mesh/Boundary regions": "9: (y < 0.001) * (z > 0.9)", "Loads/Traction": "0; 0; -1e4", "Loads/Traction on": 9}
+forces = [runner.simulate(runner.STATIC, {**PRESSED, **more}).probes()[-1]["clamp.fz"] for more in ({}, {"Mesh/Refine": "3 by n28.uz"})]
+runner.check(abs(forces[1] / forces[0] - 1) < 1e-6, f"the load changes with the mesh: {forces}")
+
+# Near to buckling an aim without a probe is told by the answer to the loads, not by the energy alone, which is short by far.
+COLUMN = {**QUIET, "Mesh/Box size": "1, 1, 12", "Mesh/Box cubes": "3, 3, 36", "Material/Young modulus": 1e6, "Material/Poisson ratio": 0.3,
+          "Corotation/Rotation": "polar", "Constraints/Clamped boundaries": 4, "Loads/Gravity": "0, 0, 0", "Loads/Traction": "10; 0; -1700",
+          "Loads/Traction on": 5, "Time/Steps": 5, "Probes/Points": "", "Probes/Boundaries": "", "Output/History": "true"}
+space = runner.simulate(runner.STATIC, COLUMN).summary()["error_estimate"]["space"]
+runner.check(space.get("more_than") == 0.5, f"a column near to buckling: {space}")
 refused({"Space/Aim": 0.1, "Mesh/Refine": "9 by energy", "Loads/Nodal force": "0; 0; -5e6", "Loads/Nodal force on": "nearest to 2, 0, 2"},
         "Space/Aim", "at a point")
 status, _, error = runner.run(runner.STATIC, "--output", folder / "none", *runner.overrides({**QUIET, "Mesh/Refine": "1 by energy", "Loads/Gravity": "0, 0, 0"}))

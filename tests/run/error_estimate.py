@@ -2,7 +2,9 @@
 
 import math
 import pathlib
+import re
 import sys
+import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import runner
@@ -59,6 +61,16 @@ doubling = hanging.summary()["error_estimate"]["step_doubling"]
 true_error = max(abs(a["tip.uz"] - b["tip.uz"]) for a, b in zip(hanging.probes(), right.probes()))
 runner.check(doubling["at_least"] and doubling["order"] < 0.7 and 0.5 * true_error < doubling["largest"] < true_error,
              f"a swing damped by its method: {doubling} beside {true_error} m")
+
+# Steps that are longer than the swings take the whole motion at once, and so do half the steps: the energy tells it.
+LONG = {"Mesh/Box size": "1, 4, 1", "Mesh/Box cubes": "2, 8, 2", "Material/Young modulus": 1e9, "Constraints/Clamped boundaries": 3,
+        "Start/Velocity": "0; 0; 0", "Probes/Points": "tip: 0, 0, 0", "Output/Frames": "none", "Output/Report": "false", "Time/Steps": 10}
+for method, step in [("backward euler", 1), ("backward euler", 100), ("trbdf2", 10), ("esdirk3", 10), ("esdirk5", 10)]:
+    for doubled in ("true", "false"):
+        folder = tempfile.mkdtemp(prefix="supple-")
+        settings = {**LONG, "Time/Method": method, "Time/Step": step, "Time/Estimate error": doubled}
+        status, output, error = runner.run(runner.BAR, "--output", folder, *runner.overrides(settings))
+        runner.check(status == 0 and re.search(r"error: in time .*more than (4\d|50) % of the motion", output), f"{method}, {step} s: {output}{error}")
 
 # Fixed steps sum up what the embedded formula says, as variable steps do: in one step the two agree, and the error falls with
 # the order of the embedded formula at least (the body starts without force).

@@ -101,6 +101,25 @@ runner.check("finite" in rows[2]["status"] and rows[2]["steps"] == "4" and rows[
 runner.check(float(rows[0]["error_probes"]) > 1, f"{rows[0]}")
 runner.check("failed: Step 5" in (folder / "failure-1" / "study.md").read_text(), "the failure is not in study.md")
 
+# Methods on levels: the error in time is that of the study of one level, the error in space is the same for all runs of a
+# level, and the whole error lies between their difference and their sum.
+MESHES = "coarse [Mesh/Box cubes=1, 3, 1]; fine [Mesh/Box cubes=2, 6, 2]"
+both = dict(Scene=runner.BAR, Overrides=SMOOTH + " | Probes/Points = tip: 4, 0, 4", Methods="backward euler: steps 0.14/50; esdirk4: steps 0.14/50",
+            Quantities="tip.uz", Reference="esdirk5: step 0.14/400", Repeats=0)
+rows = study("meshes", **both, Levels=MESHES, Reference_level="finest [Mesh/Box cubes=4, 12, 4]")
+runner.check([row["level"] for row in rows] == ["coarse", "coarse", "fine", "fine"], f"{rows}")
+for row in rows:
+    whole, space, in_time = (float(row[name]) for name in ("error_tip.uz", "error_in_space", "error_in_time"))
+    runner.check(0.99 * abs(space - in_time) < whole < 1.05 * (space + in_time) and in_time > 0, f"{row}")
+    runner.check("order" not in row and int(row["cells"]) == (18 if row["level"] == "coarse" else 144), f"{row}")
+runner.check(rows[0]["error_in_space"] == rows[1]["error_in_space"] and
+             float(rows[2]["error_in_space"]) < 0.7 * float(rows[0]["error_in_space"]), f"{rows}")
+one = study("one-mesh", **{**both, "Overrides": both["Overrides"].replace("1, 3, 1", "2, 6, 2")})
+for with_levels, alone in zip(rows[2:], one):
+    runner.check(abs(float(with_levels["error_in_time"]) / float(alone["error_tip.uz"]) - 1) < 0.05, f"{with_levels} {alone}")
+words = (folder / "meshes-1" / "study.md").read_text()
+runner.check("in space" in words and "The mesh of the reference has an error of its own" in words and "| coarse | esdirk4 | step 0.14/50 |" in words, words)
+
 # Levels: a thick cylinder against Lame's solution, second order; and against a finer run.
 CYLINDER = runner.ROOT / "parameters" / "validation" / "thick-cylinder.prm"
 
@@ -204,6 +223,10 @@ refused("levels need Columns", Methods="", Levels="1 []")
 refused("cases need Columns", Methods="", Reference="", Cases="a []")
 refused("is no name in Study/Columns", Methods="", Reference="", Cases="a []", Columns="a: n0.ux", Exact="b: 1")
 refused("they go with Levels", Variants="a []")
+refused("Reference level on which it is run", Levels="1 []")
+refused("goes with Methods and Levels together", Reference_level="1 []")
+refused("on another mesh there are other vertices", Levels="1 []", Reference_level="2 []", Quantities="final field")
+refused("it must be one mesh", Levels="1 []", Reference_level="2 []; 3 []")
 refused("one run, or two", Methods="", Levels="1 []", Columns="a: n0.ux", Reference="a []; b []; c []")
 refused("static", Scene=runner.STATIC)
 refused("Targets", Targets="none")

@@ -19,6 +19,13 @@ namespace Supple
      * @throws WriteError if the file can't be written, InputError if it has fewer */
     CsvFile(const std::string &file, unsigned long n_rows);
 
+    /** Goes on with a table of these columns after its last row whose first number, the step, is no
+     * more than @p step, or begins one where there is none. @throws WriteError if the file can't be
+     * written */
+    CsvFile(const std::string &file,
+            const std::vector<std::string> &column_names,
+            unsigned int step);
+
     /** @throws WriteError if the disk is full */
     void
     write_row(const std::vector<double> &values);

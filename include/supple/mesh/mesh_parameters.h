@@ -77,6 +77,10 @@ namespace Supple
     std::vector<unsigned int>
     material_of_rows(const std::vector<double> &ends) const;
 
+    /** Whether straight edges of a cylinder's outer wall would cut through the inner one. */
+    bool
+    walls_cross() const;
+
     /** Of a box or a rectangle along y, and how many cubes or squares it has there. */
     std::pair<double, unsigned int>
     height_and_rows() const;

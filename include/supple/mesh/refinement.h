@@ -14,11 +14,15 @@ namespace Supple
   {
     Bisection::Middle middle;                                                ///< of an edge
     std::function<std::vector<dealii::Point<3>>(const SerialMesh &)> places; ///< of the vertices
+
+    /** Gives faces their boundary ids by regions; finer meshes inherit them. */
+    std::function<void(SerialMesh &)> name_boundaries;
   };
 
 
   /**
-   * Refines a mesh where the scene says, and then where pilot runs have found it too coarse.
+   * Refines a mesh where the scene says, gives its boundary the ids that the scene says, and then
+   * refines it where pilot runs have found it too coarse.
    * @param mesh checked, before Mesh/Map
    * @throws InputError for a region without a cell, more cells than are allowed, or cells that
    * curved walls turn inside out

@@ -29,6 +29,12 @@ namespace Supple
     };
     std::vector<Pilot> pilots; ///< in their order; not of the file
 
+    /** Why there could be no more of them before the aim was met; not of the file. */
+    std::string end_of_pilots;
+
+    /** How often all edges are halved after that; not of the file. */
+    unsigned int everywhere = 0;
+
     void
     declare(dealii::ParameterHandler &prm);
 
@@ -36,7 +42,14 @@ namespace Supple
     bool
     wanted() const
     {
-      return !region.empty() || !pilots.empty();
+      return !region.empty() || !pilots.empty() || everywhere > 0;
+    }
+
+    /** Whether the scene asks for a mesh that is not the generator's or the file's. */
+    bool
+    asked() const
+    {
+      return !region.empty() || !by.empty() || !pilots.empty();
     }
 
     /** How many pilot runs `by` asks for. */

@@ -58,12 +58,20 @@ namespace Supple
                 Effort &effort);
 
     /**
-     * Those of components that move, are not held and carry no nodal force of their own; the one
-     * that moves most comes first. Collective. @throws ComputationError
+     * Those of components that move, are not held and carry no nodal force of their own, of probes
+     * whose largest one is not held either; the one that moves most comes first. Collective.
+     * @throws ComputationError
      * @param only the name of one of them, or empty: all
      */
     std::vector<ProbeError>
     find(const Probes &probes, const PointForces &points, const std::string &only = "");
+
+    /** Of the work of the loads, f . u, whose dual is the body's answer to the loads themselves: of
+     * nonlinear bodies this is what the energy alone does not tell, as near to buckling.
+     * Collective.
+     * @throws ComputationError @param loads f [N] */
+    ProbeError
+    find_of_work(const Vector &loads);
 
     /** What each cell of the body can add to the last error that was found: the root of the
      * integral of (P* - P)^2 times that of (G* - G)^2 [J/N]; zero of cells of other processes. */

@@ -46,6 +46,20 @@ namespace Supple
     Field
     recover(std::vector<Octet> of_cells) const;
 
+    /** Whether there are enough cells around each site or around one beside it; where there are
+     * not, nothing is recovered that differs from the cells. */
+    bool
+    is_everywhere() const
+    {
+      return everywhere;
+    }
+
+    /** Whether most of the sites have too few cells for a polynomial of their own, as in a body
+     * that is one cube thick: what is recovered there sees a part of the error alone. Collective.
+     */
+    bool
+    is_rough() const;
+
     /** Lane by lane, the integral over a cell of (x* - x)(y* - y), all around the axis if there is
      * one. */
     Octet
@@ -126,6 +140,7 @@ namespace Supple
     std::vector<std::size_t> end_of_round;   ///< in poor: each takes from those before
     std::vector<std::size_t> start_of_neighbours;
     std::vector<std::uint32_t> neighbours; ///< sites, of those in poor
+    bool everywhere = true;
   };
 } // namespace Supple
 

@@ -22,15 +22,20 @@ namespace Supple
     double strain_energy = 0.; ///< W [J]
     std::optional<double> lock_ratio; ///< error by jumps over that by recovery; if it was asked for
     unsigned int inverted = 0;        ///< cells
+    bool rough            = false;    ///< see Recovery::is_rough()
 
     /** eta / sqrt(2 W + eta^2), relative error in the energy norm. */
     double
     relative_norm() const;
 
-    /** r = e / (2 W + e): what the work of given loads lacks, and what the forces at given
-     * displacements have too much, of the right ones. */
+    /** e / (2 W + e): what the work of given loads lacks of the right one. */
     double
     of_work() const;
+
+    /** e / (2 W - e): what the forces at given displacements have too much of the right ones; may
+     * be infinite. */
+    double
+    of_forces() const;
 
     /** sqrt(1 + e / (2 W)) - 1: by how much a swing of this shape is too quick. */
     double
@@ -119,9 +124,14 @@ namespace Supple
     double
     part_of_patches() const;
 
-    /** Whether the material of some cells is near to incompressible, so that they may lock. */
+    /** The error of the cells that may lock by jumps over that by recovery; nothing if there are
+     * none, or they have no error; collective. */
+    std::optional<double>
+    lock_ratio() const;
+
+    /** Whether the material is near to incompressible, so that its cells may lock. */
     bool
-    may_lock() const;
+    may_lock(unsigned int material) const;
 
     const Configuration &configuration;
     const ElasticForce &elastic;

@@ -15,8 +15,17 @@ namespace Supple
       never
     };
 
-    Estimate estimate = Estimate::end;
-    double aim        = 0.; ///< relative error of a static scene; 0: none
+    /** A second run on another mesh. */
+    enum class SecondMesh
+    {
+      none,
+      coarser, ///< cells twice as large
+      finer    ///< each cell cut in eight, or four triangles
+    };
+
+    Estimate estimate      = Estimate::end;
+    SecondMesh second_mesh = SecondMesh::none;
+    double aim             = 0.; ///< relative error of a static scene; 0: none
 
     void
     declare(dealii::ParameterHandler &prm);

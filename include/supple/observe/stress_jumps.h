@@ -3,6 +3,7 @@
 
 #include <supple/mechanics/body.h>
 
+#include <functional>
 #include <vector>
 
 namespace Supple
@@ -13,13 +14,16 @@ namespace Supple
    *
    *   sum h A |[P n]|^2 / (48 mu)
    *
-   * over the inner faces, with their area A and size h, the root of A or the length of an edge. It
-   * grows without bounds beside that of Recovery where cells lock, for then pressures go up and
-   * down from cell to cell. Collective.
+   * over the faces between two cells of one material, with their area A and size h, the root of A
+   * or the length of an edge. It grows without bounds beside that of Recovery where cells lock, for
+   * then pressures go up and down from cell to cell. Collective.
    * @param piola first Piola-Kirchhoff stress P of each batch [Pa]
+   * @param counts whether the cells of a material id count
    */
   double
-  jump_estimate(const Body &body, const std::vector<Matrix3<Pack>> &piola);
+  jump_estimate(const Body &body,
+                const std::vector<Matrix3<Pack>> &piola,
+                const std::function<bool(unsigned int)> &counts);
 } // namespace Supple
 
 #endif

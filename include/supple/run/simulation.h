@@ -13,6 +13,7 @@
 #include <supple/run/listener.h>
 #include <supple/run/problem.h>
 #include <supple/run/results.h>
+#include <supple/run/second_mesh.h>
 #include <supple/run/skipped_pulses.h>
 #include <supple/run/space_estimate.h>
 #include <supple/run/step_doubling.h>
@@ -107,8 +108,12 @@ namespace Supple
     std::unique_ptr<StepDoubling>
     make_second_run();
 
+    /** The runs on other meshes, which tell the error of this one; null if nobody asks for them. */
+    std::unique_ptr<SecondMesh>
+    make_second_mesh();
+
     /** A run of another scene. @param after_step is called after each of its steps */
-    StepDoubling::OtherRun
+    Companion::Run
     other_run(const Parameters &scene, const std::function<void()> &after_step) const;
 
     /** What estimates the error in space of this run; null if nobody asks for it. */
@@ -177,6 +182,7 @@ namespace Supple
     const std::unique_ptr<TimeIntegrator> integrator;
     Diagnostics diagnostics;
     const std::unique_ptr<StepDoubling> second_run; ///< if the scene asks for it
+    const std::unique_ptr<SecondMesh> second_mesh;  ///< if the scene asks for it
     SkippedPulses pulses;
     const Vector start_displacement;
 

@@ -20,10 +20,21 @@ namespace Supple
   /** What is known of the error in space of a state, as numbers and in words. */
   struct SpaceErrors
   {
-    double time     = 0.; ///< of the state [s]; the load factor of a static problem
-    bool stationary = false;
-    std::string of; ///< what EnergyError::of_work() is a part of, in a static problem
+    /** What the error of the energy is an error of. */
+    enum class Of
+    {
+      work,   ///< of given loads
+      forces, ///< at given displacements
+      stress, ///< in the mean square: with loads and displacements given, errors of the energy
+              ///< cancel
+      swing
+    };
+
+    double time = 0.; ///< of the state [s]; the load factor of a static problem
+    Of of       = Of::swing;
     EnergyError energy;
+    EnergyError over_run; ///< sums over instants of the run, of which the state is the last
+    std::optional<ProbeError> work; ///< by a dual solution, of nonlinear bodies under loads
     std::string unknown; ///< why the numbers of the energy mean nothing; empty if they do
     std::vector<ProbeError> probes;
     std::string probes_unknown; ///< why there are none, where there should be some
@@ -38,6 +49,18 @@ namespace Supple
 
     nlohmann::ordered_json
     to_json() const;
+
+    /** What the work of the loads lacks of the right one. */
+    double
+    of_work() const
+    {
+      return work ? std::abs(work->relative()) : energy.of_work();
+    }
+
+  private:
+    /** The error of the energy in words. */
+    std::string
+    of_energy_in_words() const;
   };
 
 
@@ -82,6 +105,15 @@ namespace Supple
     SpaceErrors
     estimate(const Observation &now);
 
+    /** Whether a state of a motion is one of those over which the error of its swings is told: some
+     * eight over the run, and one in fifty steps at most, so that they cost little. */
+    bool
+    is_time_to_look(const Measurement &now);
+
+    /** What the error of the energy is an error of. */
+    SpaceErrors::Of
+    kind_of_error() const;
+
     /** Whether anything is held elsewhere than at its place at rest; collective. */
     bool
     body_is_moved() const;
@@ -104,6 +136,10 @@ namespace Supple
     std::optional<SpaceErrors> last;
     CellErrors cell_errors;
     double of_work = std::numeric_limits<double>::quiet_NaN(); ///< of that state
+    EnergyError over_run;                                      ///< sums so far
+    double next_look          = 0.;                            ///< [s]
+    unsigned int step_of_look = 0;
+    double most_kinetic = 0., most_elastic = 0.; ///< energies so far [J]
   };
 } // namespace Supple
 

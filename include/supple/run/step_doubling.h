@@ -1,8 +1,8 @@
 #ifndef supple_step_doubling_h
 #define supple_step_doubling_h
 
+#include <supple/run/companion.h>
 #include <supple/run/listener.h>
-#include <supple/scene/parameters.h>
 
 #include <functional>
 #include <optional>
@@ -27,16 +27,6 @@ namespace Supple
   class StepDoubling : public Listener
   {
   public:
-    /** Where another run is. */
-    struct Arrival
-    {
-      double time;                ///< [s], or load factor
-      const Vector &displacement; ///< [m]
-    };
-
-    /** Moves another run up to a time or just past it. */
-    using OtherRun = std::function<Arrival(double time)>;
-
     /** What three runs tell. */
     struct Observed
     {
@@ -52,21 +42,31 @@ namespace Supple
 
     /** @param time of the run whose error is asked for
      *  @param second_run of second_scene(); it may throw a ComputationError
-     *  @param make_third_run with second_scene() of that; both may throw a ComputationError */
+     *  @param make_third_run with second_scene() of that; both may throw a ComputationError
+     *  @param motion          largest of a vertex so far [m]; it changes, and must outlive this */
     StepDoubling(const TimeParameters &time,
-                 const OtherRun &second_run,
-                 const std::function<OtherRun()> &make_third_run);
-
-    void
-    begin(const Observation &now, bool resumed) override;
+                 const Companion::Run &second_run,
+                 const std::function<Companion::Run()> &make_third_run,
+                 const double &motion);
 
     /** Moves the second run up to the time of this state. */
     bool
     after_step(const Observation &now) override;
 
-    /** Where the two runs were at the same time nowhere, no error is known. */
     void
     end(const Observation &now) override;
+
+    std::string
+    name() const override
+    {
+      return "second run";
+    }
+
+    nlohmann::json
+    save() const override;
+
+    void
+    load(const nlohmann::json &saved) override;
 
     /** The error of the displacement after the last step, largest over all vertices [m]; nothing
      * where the two runs are not at the same time. */
@@ -92,12 +92,24 @@ namespace Supple
 
     /** "half the step", "half and a quarter of the step" */
     std::string
-    name() const;
+    steps_in_words() const;
+
+    /** Why no error is known; empty while there is a second run. */
+    const std::string &
+    failure() const
+    {
+      return second_run.failure;
+    }
+
+    /** That the other runs took. */
+    double
+    seconds() const
+    {
+      return second_run.seconds + third_seconds;
+    }
 
     double largest = 0.;       ///< error so far, of the order p [m]
     double last    = 0.;       ///< error where it was found last [m]
-    double seconds = 0.;       ///< that the other runs took
-    std::string failure;       ///< why no error is known; empty while there is a second run
     std::string third_failure; ///< why there is no third run, where there should be one
     const unsigned int order;  ///< p
 
@@ -114,13 +126,13 @@ namespace Supple
 
     const bool variable_steps;
     const double gain; ///< how much the error falls from run to run
-    const OtherRun second_run;
-    const std::function<OtherRun()> make_third_run;
+    Companion second_run;
+    double third_seconds = 0.; ///< that the third run took
+    const std::function<Companion::Run()> make_third_run;
     std::optional<double> error_now;
-    bool compared = false;       ///< whether the two runs have been at the same time
-    Vector start;                ///< displacement [m]
-    double motion          = 0.; ///< from there, largest so far over all vertices [m]
+    const double &motion; ///< largest of a vertex so far [m]
     double time_of_largest = 0.;
+    bool from_before       = false; ///< it was largest before the run went on from a checkpoint
     Vector first_at_largest, second_at_largest; ///< displacements when the error was largest [m]
     std::optional<Observed> of_three;
   };

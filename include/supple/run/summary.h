@@ -3,6 +3,7 @@
 
 #include <supple/mesh/refinement_parameters.h>
 #include <supple/observe/measurement.h>
+#include <supple/run/second_mesh.h>
 #include <supple/run/space_estimate.h>
 #include <supple/run/step_doubling.h>
 #include <supple/time/model.h>
@@ -10,6 +11,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -80,16 +82,36 @@ namespace Supple
     unsigned int steps                = 0;
     double setup_seconds              = 0.;
     double run_seconds                = 0.;
+    double estimate_seconds           = 0.;      ///< of the error in space, not in run_seconds
     double error_estimate             = 0.;      ///< [m]
     bool local_errors_add_up          = true;    ///< to about the error of the run
     double largest_motion             = 0.;      ///< of a vertex from its place at the start [m]
     const StepDoubling *step_doubling = nullptr; ///< if there is a second run
+    const SecondMesh *second_mesh     = nullptr; ///< if there is one
     std::optional<SpaceErrors> space_errors;     ///< if they were estimated
+
+    /** What the steps of an undamped motion have taken of its energy; 0 where that is not known. */
+    double
+    energy_lost_by_steps() const
+    {
+      return has_mass && has_energy && !damped && observed && extremes.motion_energy > 0.
+               ? std::max(0., last.dissipated / extremes.motion_energy)
+               : 0.;
+    }
+
+    /** Cells lock, as far as that is known. */
+    bool
+    cells_lock() const
+    {
+      return space_errors && space_errors->energy.locks();
+    }
+
     std::vector<RefinementParameters::Pilot> pilots; ///< runs that refined the mesh
     unsigned int frames = 0;
     bool history        = false;
     bool probes         = false;
     bool observed       = false; ///< whether energies were measured
+    bool has_energy     = true;  ///< the elastic forces have one
     Measurement last;
     Extremes extremes;
   };

@@ -7,6 +7,7 @@
 #include <supple/observe/profiles.h>
 #include <supple/output/frames.h>
 #include <supple/run/listener.h>
+#include <supple/run/second_mesh.h>
 #include <supple/run/space_estimate.h>
 #include <supple/run/step_doubling.h>
 
@@ -215,7 +216,10 @@ namespace Supple
   class ErrorTable : public Writer
   {
   public:
-    ErrorTable(const std::string &folder, Effort &effort, const StepDoubling *second_run);
+    ErrorTable(const std::string &folder,
+               Effort &effort,
+               const StepDoubling *second_run,
+               const SecondMesh *second_mesh);
 
     static std::vector<std::string>
     files();
@@ -230,8 +234,9 @@ namespace Supple
     after_step(const Observation &now) override;
 
   private:
-    const StepDoubling *const second_run;
-    std::unique_ptr<CsvFile> table; ///< on the first process
+    const StepDoubling *const second_run; ///< or null
+    const SecondMesh *const second_mesh;  ///< or null
+    std::unique_ptr<CsvFile> table;       ///< on the first process
   };
 } // namespace Supple
 

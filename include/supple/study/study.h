@@ -68,6 +68,10 @@ namespace Supple
     StudyRow
     run_one(const PlannedRun &run) const;
 
+    /** Runs the reference on the level of a run, if that is another one than before. */
+    void
+    run_level_reference(const PlannedRun &run);
+
     /** What was measured of a run. */
     void
     measure(StudyRow &row, const StudyRecord &record) const;
@@ -89,6 +93,8 @@ namespace Supple
     const StudyQuantities quantities;
     const StudyRunner runner;
     std::optional<StudyRecord> reference;
+    std::optional<StudyRecord> level_reference; ///< of methods on levels
+    std::string level_of_reference;             ///< the level of that
     StudyTable table;
   };
 } // namespace Supple

@@ -11,10 +11,12 @@ namespace Supple
   /** What a study file says: subsection Study, and nothing else. */
   struct StudyParameters : TaskParameters
   {
-    // One of these three says what is compared.
+    // One of these three says what is compared, or methods and levels together.
     std::string methods;
     std::string levels;
     std::string cases;
+
+    std::string reference_level; ///< with methods and levels
 
     std::string variants;
     std::string reference;
@@ -45,6 +47,10 @@ namespace Supple
   private:
     void
     declare_runs(dealii::ParameterHandler &prm);
+
+    /** What the runs are measured against. */
+    void
+    declare_references(dealii::ParameterHandler &prm);
 
     void
     declare_errors(dealii::ParameterHandler &prm);

@@ -13,6 +13,7 @@ namespace Supple
   struct PlannedRun
   {
     std::string series; ///< method or variant, as written; may be empty
+    std::string level;  ///< on which a method is run, as written; may be empty
     std::string curve;  ///< runs of the same curve differ in step, tolerance or mesh alone
     std::string name;   ///< "step 0.07", level or case, as written
     std::vector<Override> overrides;
@@ -61,6 +62,10 @@ namespace Supple
     /** From coarse to fine: the last one counts, the first one tells how good that is. */
     std::vector<PlannedRun> references;
 
+    /** Of methods on several levels: the reference on each of these, from which errors in time are
+     * told. */
+    std::vector<PlannedRun> level_references;
+
     /** @throws InputError */
     explicit StudyPlan(const StudyParameters &study);
 
@@ -85,6 +90,10 @@ namespace Supple
 
     void
     plan_method_reference(const StudyParameters &study);
+
+    /** Puts each run of a method on each level. */
+    void
+    plan_methods_on_levels(const StudyParameters &study);
 
     void
     plan_levels(const StudyParameters &study);

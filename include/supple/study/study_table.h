@@ -4,6 +4,7 @@
 #include <supple/study/study_plan.h>
 #include <supple/study/study_record.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ namespace Supple
     std::string reason; ///< of a failure or refusal
     std::vector<std::string> warnings;
     std::vector<double> errors; ///< relative; not-a-number where there is none
+    double error_in_space = std::numeric_limits<double>::quiet_NaN(); ///< of methods on levels
+    double error_in_time  = std::numeric_limits<double>::quiet_NaN(); ///< of methods on levels
     std::vector<double> values;
     std::string verdict;
     double size           = 0.; ///< mean step [s] or size of the cells [m]
@@ -54,6 +57,10 @@ namespace Supple
     bool judged            = false; ///< rows have verdicts
     std::vector<double> targets;
     std::vector<StudyRow> rows;
+
+    /** Whether methods are run on several levels, so that errors in space and time are told. */
+    bool
+    on_levels() const;
 
     /** Adds a row and finds orders and front anew. */
     void
