@@ -45,14 +45,16 @@ def in_time(summary):
     return ("more than " if doubling.get("at_least") else "") + percent(doubling["relative"])
 
 
-def in_space(summary, static):
+def in_space(summary):
     space = summary["error_estimate"].get("space", {})
     parts = [f"{name} {percent(abs(value))}" for name, value in space.get("probes", {}).items()
              if isinstance(value, (int, float))][:2]
     if isinstance(space.get("energy"), (int, float)):
         parts.insert(0, f"stress {percent(space['energy'])}")
-        if not static:
+        if space["of"] == "swing":
             parts.append(f"swing {percent(space['frequency'])}")
+        if space["of"] == "forces":
+            parts.insert(1, f"forces {percent(-space['forces'])}" if "forces" in space else "forces more than 50 %")
     elif "more_than" in space:
         parts.insert(0, f"work more than {percent(space['more_than'])}")
     return ", ".join(parts) or space.get("unknown", "no number")
@@ -70,7 +72,7 @@ def row_of(supple, scene):
         true = f"{probe} {percent(abs(probes[probe] / right - 1))} ({source})"
     seconds = summary["seconds"]["run"]
     return [f"[{name}](../parameters/{name}.prm)", summary["cells"], summary["steps"], f"{seconds:.2g}", in_time(summary),
-            in_space(summary, static), true]
+            in_space(summary), true]
 
 
 def main():
@@ -87,7 +89,7 @@ def main():
     text = ("# The errors of each scene\n\n"
             "Each scene of parameters/ as it is, without pictures: seconds of its steps, its error in time by a second run at half "
             "the step (part of the largest motion), its error in space by recovery of the stress at the end (of the stress in the "
-            "mean square, then of up to two probes by a dual solution, or of a swing's frequency). [error.md](error.md) says what "
+            "mean square, then of up to two probes by a dual solution, of the forces where displacements are given, or of a swing's frequency). [error.md](error.md) says what "
             "the numbers mean. Made by `scripts/errors.sh`.\n\n")
     (ROOT / "doc" / "errors.md").write_text(text + "\n".join(lines) + "\n")
 

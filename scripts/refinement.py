@@ -20,7 +20,7 @@ def measure(program, scene, settings, column, right, repeats=3):
     for _ in range(repeats):
         with tempfile.TemporaryDirectory() as folder:
             summary, probes = scene_run.run(program, scene, pathlib.Path(folder), settings)
-        seconds.append(summary["seconds"]["setup"] + summary["seconds"]["run"] + sum(pilot["seconds"] for pilot in summary.get("pilot_runs", [])))
+        seconds.append(sum(summary["seconds"].get(part, 0) for part in ("setup", "run", "error_in_space")) + sum(pilot["seconds"] for pilot in summary.get("pilot_runs", [])))
     told = summary.get("error_estimate", {}).get("space", {}).get("probes", {}).get(column)
     return summary["dofs"] - summary["held"], min(seconds), told, 1 - abs(probes[column]) / right
 

@@ -97,8 +97,7 @@ namespace Supple
         return count.entry + " must be even";
     if (would_mix_materials(mesh))
       return "each layer of Mesh/Layers must have an even number of rows";
-    if (mesh.shape == Shape::hollow_cylinder &&
-        (mesh.sectors < 6 || coarser(mesh).walls_cross()))
+    if (mesh.shape == Shape::hollow_cylinder && (mesh.sectors < 6 || coarser(mesh).walls_cross()))
       return "with half of the sectors the walls of the cylinder would cross";
     return "";
   }

@@ -19,6 +19,7 @@ namespace Supple
                  const Motions &motions,
                  const ParameterFile &scene)
     : body(body)
+    , chosen(parameters.chosen)
   {
     for (unsigned int m = 0; m < motions.size(); ++m)
       if (!motions[m].of.empty())
@@ -84,13 +85,17 @@ namespace Supple
                          "INDEX.");
       }
 
-    constexpr double margin       = 0.01; // of the box's sides
-    const auto [vertex, distance] = Selection(body).nearest_vertex(point);
+    constexpr double margin = 0.01; // of the box's sides
+    const Selection selection(body);
+    if (chosen.count(name) == 0)
+      chosen[name] = selection.nearest_vertex(point).first;
+    const unsigned int vertex = chosen.at(name);
+    const double distance     = selection.place_of_vertex(vertex).distance(point);
     std::vector<bool> nodes(body.n_local);
     for (unsigned int node = 0; node < body.n_local; ++node)
       nodes[node] = body.serial_vertex[node] == vertex;
     std::ostringstream description;
-    description << Selection(body).vertex_in_words(vertex) << ", " << distance
+    description << selection.vertex_in_words(vertex) << ", " << distance
                 << " m from the point asked for";
     add(name, nodes, description.str());
     if (!body.mesh.bounding_box.point_inside(point, margin))

@@ -1,5 +1,8 @@
 #include <supple/program/tasks.h>
 
+#include <supple/base/error.h>
+#include <supple/base/first_process.h>
+#include <supple/base/folder_lock.h>
 #include <supple/identification/identification.h>
 #include <supple/program/parameter_reference.h>
 #include <supple/run/adaptation.h>
@@ -9,6 +12,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <filesystem>
 #include <iostream>
 
 namespace Supple
@@ -30,13 +34,36 @@ namespace Supple
     }
 
 
+    /** Looks whether results can be written, before pilot runs take their time for nothing.
+     * @throws InputError if the folder or one above it is none, or another run writes there */
+    void
+    require_folder(const std::string &folder, const MPI_Comm communicator)
+    {
+      namespace fs = std::filesystem;
+      on_first_process(communicator, [&] {
+        std::error_code none; // what can't be looked at is refused when it is to be made
+        fs::path place = fs::absolute(folder, none);
+        while (!fs::exists(place, none) && place.has_relative_path())
+          place = place.parent_path();
+        if (!fs::is_directory(place, none))
+          throw InputError("The output folder " + folder + " can't be written (" + place.string() +
+                           " is no folder). Name another one with --output.");
+        if (fs::is_directory(folder, none))
+          FolderLock lock(folder);
+      });
+    }
+
+
     /** With the mesh that its pilot runs find, if it is to be run. */
     Parameters
     scene_of(const CommandLine &line, const MPI_Comm communicator)
     {
       const Parameters scene = read_scene(line.scene, line.overrides);
       if (line.action == CommandLine::Action::run)
-        return adapted(scene, !line.quiet, communicator);
+        {
+          require_folder(line.output.empty() ? scene.output_folder() : line.output, communicator);
+          return adapted(scene, !line.quiet, communicator);
+        }
       check_adaptation(scene, communicator);
       return scene;
     }

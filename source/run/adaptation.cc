@@ -35,13 +35,15 @@ namespace Supple
     }
 
 
+    /** Runs a scene, which from then on keeps the vertices that its points have chosen. */
     Pilot
-    run_pilot(const Parameters &scene, const std::string &quantity, const MPI_Comm communicator)
+    run_pilot(Parameters &scene, const std::string &quantity, const MPI_Comm communicator)
     {
       const Stopwatch stopwatch;
       Simulation simulation(pilot_scene(scene), "", true, communicator);
       const std::unique_ptr<CellIndicators> indicators = simulation.make_indicators(quantity);
       simulation.run(indicators.get());
+      scene = simulation.with_chosen_vertices(scene);
       Pilot pilot;
       pilot.cells   = simulation.summary().size.cells;
       pilot.dofs    = simulation.summary().size.dofs;

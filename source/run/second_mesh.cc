@@ -3,10 +3,10 @@
 #include <supple/base/error.h>
 #include <supple/base/gather.h>
 #include <supple/base/text.h>
-#include <supple/mechanics/selection.h>
 #include <supple/mechanics/vertex_values.h>
 #include <supple/mesh/coarser_mesh.h>
 #include <supple/observe/space_error.h>
+#include <supple/run/chosen_vertices.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -34,34 +34,13 @@ namespace Supple
     /** What moves less than this part of the motion has no relative error to speak of. */
     constexpr double little = 0.01;
 
-    const std::string vertex_word = "vertex ", point_word = "nearest to ";
-
-
-    bool
-    begins_with(const std::string &text, const std::string &word)
-    {
-      return text.rfind(word, 0) == 0;
-    }
-
-
-    /** Calls @p change with each entry that selects vertices, and where it was set. */
-    template <class Change>
-    void
-    change_selections(Parameters &scene, const Change &change)
-    {
-      for (unsigned int m = 0; m < scene.motions.size(); ++m)
-        change(scene.motions[m].of, scene.origin(motion_section(m) + "/Of"));
-      change(scene.loads.nodal_force_on, scene.origin("Loads/Nodal force on"));
-    }
-
-
     /** "vertex 40" of a mesh as it is called on the coarser one. @throws InputError */
     void
     rename_vertex(std::string &text,
                   const std::vector<unsigned int> &shared,
                   const std::string &origin)
     {
-      if (!begins_with(text, vertex_word))
+      if (text.rfind(vertex_word, 0) != 0)
         return;
       const auto place = std::find(shared.begin(),
                                    shared.end(),
@@ -76,9 +55,9 @@ namespace Supple
 
     double
     apart(const std::vector<double> &a,
-             const std::size_t of_a,
-             const std::vector<double> &b,
-             const std::size_t of_b)
+          const std::size_t of_a,
+          const std::vector<double> &b,
+          const std::size_t of_b)
     {
       return std::hypot(a[3 * of_a] - b[3 * of_b],
                         a[3 * of_a + 1] - b[3 * of_b + 1],
@@ -108,25 +87,6 @@ namespace Supple
     });
     other.mesh = coarser(scene.mesh);
     return other;
-  }
-
-
-  Parameters
-  SecondMesh::with_indices(const Parameters &scene, const Body &body)
-  {
-    Parameters result = scene;
-    const Selection selection(body);
-    change_selections(result, [&](std::string &text, const std::string &origin) {
-      if (!begins_with(text, point_word))
-        return;
-      const std::vector<bool> nodes = selection.selected_nodes(text, origin);
-      unsigned int vertex           = numbers::invalid_unsigned_int;
-      for (unsigned int node = 0; node < body.n_owned; ++node)
-        if (nodes[node])
-          vertex = body.serial_vertex[node];
-      text = vertex_word + std::to_string(Utilities::MPI::min(vertex, body.mesh.communicator));
-    });
-    return result;
   }
 
 
@@ -231,8 +191,8 @@ namespace Supple
     for (std::size_t k = 0; k < shared_by_three.size() && !third.empty(); ++k)
       {
         const std::size_t v = shared_by_three[k];
-        first_to_second = std::max(first_to_second, apart(first, shared_by_two[v], second, v));
-        second_to_third = std::max(second_to_third, apart(second, v, third, k));
+        first_to_second     = std::max(first_to_second, apart(first, shared_by_two[v], second, v));
+        second_to_third     = std::max(second_to_third, apart(second, v, third, k));
       }
     compare_probes(first, second);
     return between;
@@ -321,9 +281,10 @@ namespace Supple
   double
   SecondMesh::factor() const
   {
-    const double order = at_least() ? largest_order :
-                                      std::min(observed_order().value_or(assumed_order), largest_order);
-    const double gain = std::pow(2., order);
+    const double order = at_least()
+                           ? largest_order
+                           : std::min(observed_order().value_or(assumed_order), largest_order);
+    const double gain  = std::pow(2., order);
     return kind == Kind::coarser ? 1. / (gain - 1.) : -gain / (gain - 1.);
   }
 
@@ -359,7 +320,7 @@ namespace Supple
     if (!(motion > 0.))
       return "";
     const auto order = observed_order();
-    std::string how = " of the motion (" + meshes_in_words();
+    std::string how  = " of the motion (" + meshes_in_words();
     if (order)
       how += ", order " + digits(*order, 2) + (at_least() ? " where it should be 2" : "");
     else if (!at_least())

@@ -3,6 +3,7 @@
 #include <supple/base/error.h>
 #include <supple/base/expression.h>
 #include <supple/base/text.h>
+#include <supple/run/chosen_vertices.h>
 #include <supple/time/create_integrator.h>
 
 #include <deal.II/base/mpi.h>
@@ -104,7 +105,7 @@ namespace Supple
           throw InputError(origin + ": on the other mesh the scene is refused. " + error.what());
         }
     };
-    const Parameters first  = SecondMesh::with_indices(problem.parameters, problem.body);
+    const Parameters first  = with_chosen_vertices(problem.parameters);
     const Parameters second = SecondMesh::on_other_mesh(first, kind, origin);
     std::optional<SecondMesh::OtherRun> third;
     if (kind == SecondMesh::Kind::coarser)
@@ -159,6 +160,13 @@ namespace Supple
   Simulation::make_indicators(const std::string &quantity)
   {
     return std::make_unique<CellIndicators>(problem, *integrator, probes, quantity);
+  }
+
+
+  Parameters
+  Simulation::with_chosen_vertices(const Parameters &scene) const
+  {
+    return Supple::with_chosen_vertices(scene, problem.body);
   }
 
 

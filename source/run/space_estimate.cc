@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace Supple
@@ -98,7 +99,8 @@ namespace Supple
   nlohmann::ordered_json
   SpaceErrors::to_json() const
   {
-    nlohmann::ordered_json json = {{"time", time}};
+    const std::array<const char *, 4> kinds = {{"work", "forces", "stress", "swing"}};
+    nlohmann::ordered_json json = {{"time", time}, {"of", kinds[static_cast<unsigned int>(of)]}};
     if (!unknown.empty())
       json["unknown"] = unknown;
     else if (of_work() > largest_told_error)

@@ -130,3 +130,13 @@ refused({"Space/Aim": 0.1, "Mesh/Refine": "9 by energy", "Loads/Nodal force": "0
         "Space/Aim", "at a point")
 status, _, error = runner.run(runner.STATIC, "--output", folder / "none", *runner.overrides({**QUIET, "Mesh/Refine": "1 by energy", "Loads/Gravity": "0, 0, 0"}))
 runner.check(status == 2 and "Pilot run 1" in error and "no strain energy" in error, error)
+
+# A probe between vertices follows the one that is nearest on the first mesh, whatever comes nearer by the cuts.
+BETWEEN = {**QUIET, "Probes/Points": "p: 1.4, 6.8, 1.4", "Mesh/Refine": "1 by p.uz"}
+outcome = runner.run(runner.STATIC, "--output", folder / "between", *runner.overrides(BETWEEN))
+runner.accepted(outcome, ["at (2, 7.5, 2)"], "a probe between vertices")
+
+# What can't be written is refused before the pilot runs.
+(folder / "file").write_text("")
+outcome = runner.run(runner.STATIC, "--output", folder / "file" / "x", *runner.overrides({**QUIET, "Mesh/Refine": "1 by energy"}))
+runner.refused(outcome, ["can't be written", "is no folder"], "a file in the way")

@@ -4,6 +4,7 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 
+#include <map>
 #include <string>
 
 namespace Supple
@@ -17,6 +18,9 @@ namespace Supple
     std::string profiles;
     dealii::Point<3> profile_center{0., 0., 0.};
     unsigned int profile_every = 1;
+
+    /** The vertices of points by their names, as a pilot run has chosen them; not of the file. */
+    std::map<std::string, unsigned int> chosen;
 
     void
     declare(dealii::ParameterHandler &prm);

@@ -5,6 +5,7 @@
 #include <supple/mechanics/constraint_parameters.h>
 #include <supple/observe/probe_parameters.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,13 @@ namespace Supple
     std::vector<std::string>
     descriptions() const;
 
+    /** The vertices that points choose, by the names of the probes. */
+    const std::map<std::string, unsigned int> &
+    vertices_of_points() const
+    {
+      return chosen;
+    }
+
     /** Which points are outside of the body, in sentences. */
     const std::vector<std::string> &
     warnings() const
@@ -82,6 +90,7 @@ namespace Supple
 
     const Body &body;
     std::vector<Probe> probes;
+    std::map<std::string, unsigned int> chosen; ///< vertices of points; some before, all at last
     std::vector<std::string> points_outside;
   };
 } // namespace Supple

@@ -16,8 +16,8 @@ namespace Supple
 {
   /**
    * The error in space of a run from its distance to a run of the same scene, with the same steps,
-   * on a mesh whose cells are twice as large, or half as large. Where the error falls with the power
-   * p of the size of the cells,
+   * on a mesh whose cells are twice as large, or half as large. Where the error falls with the
+   * power p of the size of the cells,
    *
    *   exact - u_h = (u_h - u_2h) / (2^p - 1) = (u_{h/2} - u_h) 2^p / (2^p - 1)
    *
@@ -25,8 +25,8 @@ namespace Supple
    * largest distances over the run (Roache 1998). Without one 1.6 is taken, for linear cells have 2
    * where the stress is smooth and less at edges; and so where the two coarser runs are farther
    * apart than a fifth of the motion, for such meshes are too coarse for any order. Where the first
-   * two are farther apart than half of it, as swings are that have lost their phase, or distances do
-   * not shrink from mesh to mesh, the error is known from below alone.
+   * two are farther apart than half of it, as swings are that have lost their phase, or distances
+   * do not shrink from mesh to mesh, the error is known from below alone.
    */
   class SecondMesh : public Listener
   {
@@ -43,9 +43,9 @@ namespace Supple
     /** An error of a number over the run. */
     struct Error
     {
-      std::string name;     ///< of a column of probes.csv
-      double largest   = 0.; ///< over the run [m]
-      double of        = 0.; ///< the number's largest size over the run [m]
+      std::string name;       ///< of a column of probes.csv
+      double largest    = 0.; ///< over the run [m]
+      double of         = 0.; ///< the number's largest size over the run [m]
       double at_the_end = 0.; ///< what the number lacks [m]
     };
 
@@ -53,11 +53,6 @@ namespace Supple
      * @throws InputError where there is none, or where a vertex by its index is not there */
     static Parameters
     on_other_mesh(const Parameters &scene, Kind kind, const std::string &origin);
-
-    /** A scene with vertices by their index in place of those nearest to a point, which would be
-     * others on another mesh. */
-    static Parameters
-    with_indices(const Parameters &scene, const Body &body);
 
     /** The vertices of the run's mesh that its companion's has too, see OtherRun. */
     static std::vector<unsigned int>

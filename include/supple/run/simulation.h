@@ -91,6 +91,10 @@ namespace Supple
     std::unique_ptr<CellIndicators>
     make_indicators(const std::string &quantity);
 
+    /** A scene with the vertices that its points choose on the mesh of this one. Collective. */
+    Parameters
+    with_chosen_vertices(const Parameters &scene) const;
+
     /** What summary.json tells; to be called after the run. */
     const Summary &
     summary() const
