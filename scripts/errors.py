@@ -94,4 +94,5 @@ def main():
     (ROOT / "doc" / "errors.md").write_text(text + "\n".join(lines) + "\n")
 
 
-main()
+if __name__ == "__main__":
+    main()

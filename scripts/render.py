@@ -1,10 +1,10 @@
-"""Draws instants of a run, from the VTU files that solution.pvd names, beside or below each other, and another run with it.
+"""Draws instants of a run, from the VTU files that solution.pvd names, beside or below each other, and other runs with it.
 
-    scripts/render.sh OUTPUT_FOLDER PICTURE.png [--times 0 0.14 7] [--below OTHER_OUTPUT_FOLDER] [further options]
+    scripts/render.sh OUTPUT_FOLDER PICTURE.png [--times 0 0.14 7] [--below OTHER_OUTPUT_FOLDER...] [further options]
     scripts/render.sh OUTPUT_FOLDER SHEET.png --sheet 12      twelve frames spread over the run
     scripts/render.sh OUTPUT_FOLDER FILM.mp4 [--seconds 8]    all frames, each shown until the next one's time
 
-The bodies are drawn in parallel projection and fill their views; the picture is as high as it must be. Two runs have the
+The bodies are drawn in parallel projection and fill their views; the picture is as high as it must be. All runs have the
 same scale and colours. The field that colours them may be a component (displacement_2); of a vector, else, its length.
 """
 
@@ -268,7 +268,7 @@ def draw_sheet(frames, arguments):
 
 
 def draw_film(runs, arguments):
-    """All frames of the first run with those nearest in time of the second below them. Nothing is drawn in between."""
+    """All frames of the first run with those nearest in time of the others below them. Nothing is drawn in between."""
     times = [time for time, _ in runs[0]]
     runs = [[min(run, key=lambda frame, t=time: abs(frame[0] - t)) for time in times] for run in runs]
     drawing = Drawing(runs, arguments, 1)
@@ -303,7 +303,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=pathlib.Path, help="output folder of a run")
     parser.add_argument("picture", help="PNG or MP4 file to write")
-    parser.add_argument("--below", type=pathlib.Path, help="output folder of another run, drawn below the first")
+    parser.add_argument("--below", type=pathlib.Path, nargs="+", default=[], help="output folders of other runs, drawn below the first")
     parser.add_argument("--names", nargs="+", default=[], help="what the runs are called")
     parser.add_argument("--times", type=float, nargs="+", help="instants [s]; the nearest frames are taken")
     parser.add_argument("--instants", nargs="+", help="what the instants are called, instead of their times")
@@ -320,7 +320,7 @@ def main():
     parser.add_argument("--width", type=int, default=1200, help="of the picture in pixels")
     arguments = parser.parse_args()
 
-    folders = [arguments.folder] + ([arguments.below] if arguments.below else [])
+    folders = [arguments.folder, *arguments.below]
     arguments.names = (arguments.names + [""] * len(folders))[:len(folders)]
     if arguments.picture.endswith(".mp4"):
         arguments.width -= arguments.width % 2
