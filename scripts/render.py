@@ -38,7 +38,7 @@ def unit(field, largest):
     return next(((size, prefix + symbol) for size, prefix in PREFIXES if largest >= size), (1, symbol))
 
 
-def body_actor(grid, colours):
+def body_actor(grid, colours, plain=False):
     mapper = vtk.vtkDataSetMapper()
     mapper.SetInputData(grid)
     if grid.GetCellData().HasArray("colour"):
@@ -52,7 +52,7 @@ def body_actor(grid, colours):
     actor = vtk.vtkActor()
     actor.SetMapper(mapper)
     look = actor.GetProperty()
-    look.EdgeVisibilityOn()
+    look.SetEdgeVisibility(not plain)
     look.SetEdgeColor(0.25, 0.25, 0.3)
     look.SetLineWidth(1.0)
     look.SetInterpolationToFlat()
@@ -167,7 +167,7 @@ def add_view(window, corners, grid, text, camera, colours, arguments):
     light.SetLightTypeToCameraLight()
     light.SetPosition(0.3, 0.8, 1)
     view.AddLight(light)
-    view.AddActor(body_actor(grid, colours))
+    view.AddActor(body_actor(grid, colours, arguments.plain))
     view.AddActor(ghost_actor(grid, camera if arguments.outline == "silhouette" else None))
     view.AddActor(caption(text, 12, (corners[3] - corners[1]) * window.GetSize()[1] - HEAD + 8))
     view.SetActiveCamera(camera)
@@ -314,6 +314,7 @@ def main():
     parser.add_argument("--field", default="von_mises_stress", help="what colours the body")
     parser.add_argument("--range", type=float, nargs=2, help="where the colours begin and end")
     parser.add_argument("--title", help="title of the colours, without the unit")
+    parser.add_argument("--plain", action="store_true", help="without the edges of the cells")
     parser.add_argument("--outline", choices=("edges", "silhouette"), default="edges", help="of the body at rest")
     parser.add_argument("--camera", type=float, nargs=3, help="direction to look from")
     parser.add_argument("--up", type=float, nargs=3, help="direction that is upwards in the picture")

@@ -1,4 +1,4 @@
-"""A run of a scene and its numbers: for errors.py and refinement.py, not called."""
+"""A run of a scene and its numbers: for errors.py, refinement.py and thesis_*.py, not called."""
 
 import csv
 import json
@@ -16,6 +16,15 @@ def run(supple, scene, folder, settings):
     summary = json.loads((folder / "summary.json").read_text())
     probes = {}
     if (folder / "probes.csv").exists():
-        with open(folder / "probes.csv") as file:
-            probes = {name: float(text) for name, text in list(csv.DictReader(file))[-1].items()}
+        probes = last_row(folder / "probes.csv")
     return summary, probes
+
+
+def rows(table):
+    """{column: number} of each row of a CSV file."""
+    with open(table) as file:
+        return [{name: float(text) for name, text in row.items()} for row in csv.DictReader(file)]
+
+
+def last_row(table):
+    return rows(table)[-1]

@@ -39,6 +39,14 @@ def draw(axes, times, ratios, name):
     axes.grid(alpha=0.3)
 
 
+def save(figure, file):
+    """As PNG of few colours, which are enough and make a small file."""
+    figure.tight_layout()
+    figure.savefig(file, dpi=100)
+    image = Image.open(file).convert("RGB")
+    image.quantize(64, Image.Quantize.MAXCOVERAGE, kmeans=1, dither=Image.Dither.NONE).save(file, optimize=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", type=pathlib.Path, nargs=2, help="output folders of two runs")
@@ -53,10 +61,7 @@ def main():
         print(f"{folder}: {ratios.shape[1]} cells, {len(times)} frames, "
               f"smallest {ratios.min():.4f}, largest {ratios.max():.4f}")
     both[0].set_ylabel("volume / volume at rest")
-    figure.tight_layout()
-    figure.savefig(arguments.picture, dpi=100)
-    # Few colours are enough, and make a small file.
-    Image.open(arguments.picture).convert("RGB").quantize(48).save(arguments.picture, optimize=True)
+    save(figure, arguments.picture)
 
 
 if __name__ == "__main__":
