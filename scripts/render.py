@@ -241,7 +241,7 @@ class Drawing:
 
 
 def caption_of(name, time, instant=None):
-    return ", ".join(filter(None, [name, instant or f"t = {time:.3g} s"]))
+    return ", ".join(filter(None, [name, f"t = {time:.3g} s" if instant is None else instant]))
 
 
 def draw(runs, arguments):
