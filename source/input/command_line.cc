@@ -19,6 +19,8 @@ namespace Supple
            "    --output DIR                    where results go (default: output/ and the scene's "
            "name)\n"
            "    --quiet                         say nothing but errors\n"
+           "    --aim \"1 %\"                     find the soonest run with an error in time below "
+           "this\n"
            "  supple STUDY.prm                  run many variants of a scene and compare them\n"
            "  supple IDENTIFICATION.prm         fit two layers of skin to measurements\n"
            "  supple --check SCENE.prm          parse, build the mesh, validate, run nothing\n"
@@ -57,6 +59,12 @@ namespace Supple
           line.quiet = true;
         else if (word == "--set")
           line.overrides.push_back({value("\"Section/Entry=value\"")});
+        else if (word == "--aim")
+          {
+            line.overrides.push_back(
+              {"Study/Aim=" + value("a percentage, such as \"1 %\","), "--aim"});
+            line.aims = true;
+          }
         else if (word == "--output")
           line.output = value("a folder");
         else if (word == "--print-parameters")

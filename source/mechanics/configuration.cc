@@ -114,6 +114,15 @@ namespace Supple
 
 
   void
+  Configuration::keep_for_tangent()
+  {
+    rotations.kept = rotations.current;
+    if (patches)
+      patches->keep();
+  }
+
+
+  void
   Configuration::begin_step()
   {
     start          = state;

@@ -86,7 +86,14 @@ namespace Supple
 
 
   void
-  VolumetricPatches::reduce(Vector &of_patches, const double *w) const
+  VolumetricPatches::keep()
+  {
+    kept_gradient = gradient;
+  }
+
+
+  void
+  VolumetricPatches::reduce(Vector &of_patches, const double *w, const Gradients &gradients) const
   {
     for (unsigned int p = 0; p < n_own(); ++p)
       {
@@ -95,7 +102,7 @@ namespace Supple
           {
             const double *const value = w + 3 * static_cast<std::size_t>(node[k]);
             sum +=
-              gradient[k][0] * value[0] + gradient[k][1] * value[1] + gradient[k][2] * value[2];
+              gradients[k][0] * value[0] + gradients[k][1] * value[1] + gradients[k][2] * value[2];
           }
         of_patches.local_element(p) = sum;
       }
@@ -103,24 +110,24 @@ namespace Supple
 
 
   void
-  VolumetricPatches::expand(double *y, const double *of_patches) const
+  VolumetricPatches::expand(double *y, const double *of_patches, const Gradients &gradients) const
   {
     for (std::size_t p = 0; p + 1 < start.size(); ++p)
       for (std::size_t k = start[p]; k < start[p + 1]; ++k)
         if (node[k] < n_owned)
           for (unsigned int i = 0; i < 3; ++i)
-            y[3 * static_cast<std::size_t>(node[k]) + i] += of_patches[p] * gradient[k][i];
+            y[3 * static_cast<std::size_t>(node[k]) + i] += of_patches[p] * gradients[k][i];
   }
 
 
   void
   VolumetricPatches::subtract_force(const double *displacement, double *force) const
   {
-    reduce(change, displacement);
+    reduce(change, displacement, gradient);
     for (unsigned int p = 0; p < n_own(); ++p)
       change.local_element(p) = -stiffness(p) * (change.local_element(p) + constant[p]);
     const GhostValues stress(change);
-    expand(force, stress.data());
+    expand(force, stress.data(), gradient);
   }
 
 
@@ -138,7 +145,7 @@ namespace Supple
   double
   VolumetricPatches::energy(const double *displacement) const
   {
-    reduce(change, displacement);
+    reduce(change, displacement, gradient);
     double sum = 0.;
     for (unsigned int p = 0; p < n_own(); ++p)
       {
@@ -152,7 +159,7 @@ namespace Supple
   std::vector<double>
   VolumetricPatches::mean_stress(const double *displacement) const
   {
-    reduce(change, displacement);
+    reduce(change, displacement, gradient);
     for (unsigned int p = 0; p < n_own(); ++p)
       change.local_element(p) = stiffness(p) * (change.local_element(p) + constant[p]);
     const GhostValues stress(change);
@@ -180,7 +187,7 @@ namespace Supple
   std::vector<VolumetricPatches::Growth>
   VolumetricPatches::growth(const double *w, const double constant_part) const
   {
-    reduce(change, w);
+    reduce(change, w, gradient);
     for (unsigned int p = 0; p < n_own(); ++p)
       change.local_element(p) = (change.local_element(p) + constant_part * constant[p]) / volume[p];
     const GhostValues of_patches(change);

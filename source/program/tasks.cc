@@ -8,12 +8,14 @@
 #include <supple/run/adaptation.h>
 #include <supple/run/simulation.h>
 #include <supple/scene/read_scene.h>
+#include <supple/study/aim_search.h>
 #include <supple/study/study.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <filesystem>
 #include <iostream>
+#include <optional>
 
 namespace Supple
 {
@@ -54,6 +56,22 @@ namespace Supple
     }
 
 
+    /** What a study says, or the aim of a scene; none of other scenes. @throws InputError */
+    std::optional<StudyParameters>
+    study_of(const CommandLine &line)
+    {
+      if (StudyParameters::is_study(line.scene))
+        return StudyParameters::read(line.scene, line.overrides);
+      if (!line.aims)
+        return {};
+      if (IdentificationParameters::is_identification(line.scene))
+        throw InputError("--aim: " + line.scene +
+                         " is an identification, whose runs are static; an aim goes with scenes "
+                         "and studies.");
+      return StudyParameters::aim_of_scene(line.scene, line.overrides);
+    }
+
+
     /** With the mesh that its pilot runs find, if it is to be run. */
     Parameters
     scene_of(const CommandLine &line, const MPI_Comm communicator)
@@ -91,10 +109,13 @@ namespace Supple
           return;
         case Action::check:
         case Action::run:
-          if (StudyParameters::is_study(line.scene))
-            run_or_check<Study>(line,
-                                StudyParameters::read(line.scene, line.overrides),
-                                communicator);
+          if (const auto study = study_of(line))
+            {
+              if (study->aim.empty())
+                run_or_check<Study>(line, *study, communicator);
+              else
+                run_or_check<AimSearch>(line, *study, communicator);
+            }
           else if (IdentificationParameters::is_identification(line.scene))
             run_or_check<Identification>(line,
                                          IdentificationParameters::read(line.scene, line.overrides),

@@ -269,7 +269,7 @@ namespace Supple
                      std::to_string(effort.solves) + " systems, which " +
                      problem.solver->stand_in_name() + " solved in its stead.");
     // Each solver has met its own criterion, and what was left over was solved for three times.
-    const double tolerance = problem.parameters.solver.tolerance;
+    const double tolerance = problem.solver->tolerance();
     if (effort.max_relative_residual > 2. * tolerance)
       list.push_back("The worst linear solve left a relative residual of " +
                      digits(effort.max_relative_residual, 2) + " where " + digits(tolerance, 2) +

@@ -2,6 +2,7 @@
 
 #include <supple/base/error.h>
 #include <supple/base/expression.h>
+#include <supple/run/time_dependence.h>
 #include <supple/scene/read_scene.h>
 
 #include <deal.II/base/multithread_info.h>
@@ -17,6 +18,7 @@ namespace Supple
     : parameters(scene)
     , stationary(parameters.time.problem == TimeParameters::Problem::stationary)
     , mesh(make_mesh(parameters, communicator))
+    , time(time_with_instants(parameters, mesh.bounding_box))
     , body(mesh, parameters.material, parameters.solver.threads, parameters.file)
     , constraints(body, parameters.constraints, parameters.motions, parameters.file)
     , forces(body,
@@ -51,7 +53,7 @@ namespace Supple
             configuration,
             implicit_operator,
             *solver,
-            parameters.time,
+            time,
             parameters.damping,
             parameters.material,
             parameters.file,

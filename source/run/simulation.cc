@@ -59,7 +59,7 @@ namespace Supple
     , diagnostics(problem.configuration, problem.forces, problem.stationary)
     , second_run(make_second_run())
     , second_mesh(make_second_mesh())
-    , pulses(problem.parameters, problem.mesh.bounding_box)
+    , pulses(problem.parameters, problem.time, problem.mesh.bounding_box)
     , start_displacement(problem.configuration.displacement())
     , results(folder, problem.parameters, communicator)
     , interruption(communicator)

@@ -239,7 +239,7 @@ namespace Supple
     solver = {model.solver.name(),
               model.solver.reason,
               model.solver.stand_in_name(),
-              parameters.solver.tolerance};
+              model.solver.tolerance()};
     if (size.ranks > 1)
       spread = spread_of(model);
     const Vector &displacement = model.configuration.displacement();

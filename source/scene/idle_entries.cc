@@ -112,6 +112,12 @@ namespace Supple
       return {
         {!time.has_variable_steps(), "Time/Variable steps is false.", tolerances},
         {time.method != TimeMethod::ida, "Time/Method is not ida.", {"Time/Maximum order"}},
+        {!time.is_semi_implicit(),
+         "Time/Method is none of imex3 to imex5.",
+         {"Time/Renewal angle"}},
+        {time.is_semi_implicit(),
+         "Time/Method = " + time.method_name() + " has no Newton iterations.",
+         {"Time/Newton tolerance", "Time/Newton iterations", "Time/Tangent"}},
       };
     }
 

@@ -105,6 +105,9 @@ namespace Supple
         throw InputError(origin +
                          ": with a volumetric locking cure the matrix is taken anew in each step; "
                          "it must be 0.");
+      if (time.is_semi_implicit())
+        throw InputError(origin + ": " + time.method_name() +
+                         " keeps its matrix as Time/Renewal angle says; it must be 0.");
       if (parameters.corotation.rotation == RotationMethod::polar &&
           time.method != TimeMethod::backward_euler && time.tangent != Tangent::frozen)
         throw InputError(origin + ": " + time.method_name() +

@@ -56,6 +56,25 @@ namespace Supple
   {
     file = ParameterFile(file_name);
     name = file.name();
+    parse_rest(prm, all_overrides);
+  }
+
+
+  void
+  TaskParameters::parse_for_scene(dealii::ParameterHandler &prm,
+                                  const std::string &scene_file,
+                                  const std::vector<Override> &all_overrides)
+  {
+    scene = scene_file;
+    name  = ParameterFile(scene_file).name() + "-aim";
+    parse_rest(prm, all_overrides);
+  }
+
+
+  void
+  TaskParameters::parse_rest(dealii::ParameterHandler &prm,
+                             const std::vector<Override> &all_overrides)
+  {
     std::vector<Override> own;
     for (const Override &override : all_overrides)
       {

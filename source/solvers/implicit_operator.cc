@@ -129,7 +129,9 @@ namespace Supple
   {
     const TangentFactors wanted  = {1. + gamma * damping.mass_factor, gamma, gamma * gamma};
     const double wanted_diagonal = gamma * damping.viscous;
-    const bool keeps             = warp_tolerance > 0. && forces.elastic().tangent_is_frozen() &&
+    if (lags)
+      return assemble_kept(wanted, wanted_diagonal);
+    const bool keeps = warp_tolerance > 0. && forces.elastic().tangent_is_frozen() &&
                        !forces.others_change_operator();
     if (keeps && renewable && is_made_of(wanted, wanted_diagonal))
       return renew();
@@ -138,6 +140,38 @@ namespace Supple
     renewable = keeps;
     assemble_all();
     return true;
+  }
+
+
+  bool
+  ImplicitOperator::assemble_kept(const TangentFactors &wanted, const double wanted_diagonal)
+  {
+    if (made && is_made_of(wanted, wanted_diagonal))
+      return false;
+    factors  = wanted;
+    diagonal = wanted_diagonal;
+    assemble(A, 0.);
+    made = true;
+    ++effort.assemblies;
+    effort.cells_warped += body.cell_nodes.size();
+    return true;
+  }
+
+
+  void
+  ImplicitOperator::keep_rotations()
+  {
+    configuration.keep_for_tangent();
+    lags = true;
+    made = false;
+  }
+
+
+  bool
+  ImplicitOperator::cells_have_turned(const double angle) const
+  {
+    const unsigned int here = forces.elastic().n_turned(configuration, angle) > 0;
+    return dealii::Utilities::MPI::max(here, body.mesh.communicator) > 0;
   }
 
 
@@ -309,12 +343,49 @@ namespace Supple
   } // namespace
 
 
+  namespace
+  {
+    /** Products with K take the rotations of now: while it lives, those are the ones that A keeps.
+     */
+    class KeptRotations
+    {
+    public:
+      KeptRotations(Configuration &configuration, const bool lags)
+        : rotations(configuration.rotations)
+        , swapped(lags && !rotations.kept.empty())
+      {
+        swap();
+      }
+
+      ~KeptRotations()
+      {
+        swap();
+      }
+
+      KeptRotations(const KeptRotations &) = delete;
+      KeptRotations &
+      operator=(const KeptRotations &) = delete;
+
+    private:
+      void
+      swap()
+      {
+        if (swapped)
+          rotations.current.swap(rotations.kept);
+      }
+
+      CellRotations &rotations;
+      const bool swapped;
+    };
+  } // namespace
+
+
   void
   ImplicitOperator::stiffness_vmult(Vector &y, const Vector &x) const
   {
     const GhostValues values(x);
-    const bool is_in_A = M && factors.displacement > 0. && patch_factor() == factors.displacement &&
-                         !forces.others_have_tangent();
+    const bool is_in_A = M && made && factors.displacement > 0. &&
+                         patch_factor() == factors.displacement && !forces.others_have_tangent();
     if (is_in_A)
       {
         // What is lost where M is much larger than K' is round-off of M x / gamma.
@@ -333,9 +404,31 @@ namespace Supple
           configuration.patches->add_product(1., values.data(), y.begin());
       }
     else
-      sum_into(y, [&](double *sum) {
-        forces.add_product(configuration, {0., 0., 1.}, values.data(), sum);
-      });
+      {
+        const KeptRotations kept(configuration, lags);
+        sum_into(y, [&](double *sum) {
+          forces.add_product(configuration, {0., 0., 1.}, values.data(), sum);
+        });
+      }
+    constraints.set_zero(y);
+  }
+
+
+  void
+  ImplicitOperator::elastic_vmult(Vector &y, const Vector &u, const Vector &v) const
+  {
+    if (!constraints.move() && damping.stiffness_factor == 0.)
+      {
+        stiffness_vmult(y, u);
+        return;
+      }
+    const GhostValues displacement(u), velocity(v);
+    const KeptRotations kept(configuration, lags);
+    sum_into(y, [&](double *sum) {
+      forces.add_product(configuration, {0., 0., 1.}, displacement.data(), sum);
+      if (damping.stiffness_factor > 0.)
+        forces.add_product(configuration, {0., 1., 0.}, velocity.data(), sum);
+    });
     constraints.set_zero(y);
   }
 } // namespace Supple

@@ -173,6 +173,15 @@ namespace Supple
   }
 
 
+  void
+  LinearSolver::set_tolerance(const double tolerance)
+  {
+    parameters.tolerance = tolerance;
+    if (stand_in)
+      stand_in->set_tolerance(tolerance);
+  }
+
+
   std::string
   LinearSolver::stand_in_name() const
   {

@@ -5,7 +5,9 @@
 
 #include <deal.II/base/patterns.h>
 
+#include <cstdlib>
 #include <limits>
+#include <regex>
 
 namespace Supple
 {
@@ -170,11 +172,35 @@ namespace Supple
 
 
   void
+  StudyParameters::declare_aim(ParameterHandler &prm)
+  {
+    const dealii::Patterns::Anything any;
+    prm.add_parameter("Aim",
+                      aim,
+                      "Looks for the soonest run with an error in time below this, in place of a "
+                      "comparison: method, and step or tolerance. Methods then names those that "
+                      "are tried, such as imex5; esdirk4, without steps; none: all. For a scene "
+                      "that is no study: supple SCENE.prm --aim \"1 %\". Unit: %. Range: a "
+                      "percentage, such as 1 %, above 0 and at most 50.",
+                      any);
+    prm.add_parameter("Aim of",
+                      aim_of,
+                      "What the error of Aim is of, as in Quantities; nothing: of the "
+                      "displacements of all followed points over time and of all vertices at the "
+                      "end, against the largest motion. Unit: none. Range: probes, final field, "
+                      "energy, a column of history.csv or probes.csv, such as tip.uz or clamp.fz; "
+                      "or several of them, set apart by commas, of which the worst one counts.",
+                      any);
+  }
+
+
+  void
   StudyParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection(section);
     declare_runs(prm);
     declare_references(prm);
+    declare_aim(prm);
     declare_errors(prm);
     prm.leave_subsection();
   }
@@ -192,11 +218,63 @@ namespace Supple
   }
 
 
+  StudyParameters
+  StudyParameters::aim_of_scene(const std::string &file, const std::vector<Override> &overrides)
+  {
+    StudyParameters study;
+    ParameterHandler prm;
+    study.declare(prm);
+    study.parse_for_scene(prm, file, overrides);
+    study.check();
+    return study;
+  }
+
+
+  double
+  StudyParameters::relative_aim() const
+  {
+    std::smatch found;
+    double value = 0.;
+    if (std::regex_match(aim, found, std::regex("\\s*([0-9.]+([eE][-+]?[0-9]+)?)\\s*%\\s*")))
+      value = std::strtod(found[1].str().c_str(), nullptr);
+    if (!(value > 0. && value <= 50.))
+      throw InputError(place("Aim") + " = " + aim +
+                       ": it must be a percentage above 0 and at most 50, such as 1 %.");
+    return 0.01 * value;
+  }
+
+
+  void
+  StudyParameters::check_aim() const
+  {
+    relative_aim();
+    for (const auto &[name, text] :
+         std::vector<std::pair<std::string, std::string>>{{"Levels", levels},
+                                                          {"Cases", cases},
+                                                          {"Reference", reference},
+                                                          {"Reference level", reference_level},
+                                                          {"Exact", exact},
+                                                          {"Columns", columns},
+                                                          {"Right if", right_if}})
+      if (!text.empty())
+        throw InputError(place(name) +
+                         ": it does not go with an Aim, which finds its runs and "
+                         "their reference by itself.");
+  }
+
+
   void
   StudyParameters::check() const
   {
     if (scene.empty())
       throw InputError(place("Scene") + ": a study needs a scene.");
+    if (!aim.empty())
+      {
+        check_aim();
+        return;
+      }
+    if (!aim_of.empty())
+      throw InputError(place("Aim of") + ": without an Aim it says nothing.");
     const bool both   = !methods.empty() && !levels.empty();
     const int n_kinds = (!methods.empty() || !levels.empty()) + !cases.empty();
     if (n_kinds != 1)

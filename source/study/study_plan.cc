@@ -98,17 +98,20 @@ namespace Supple
 
 
   StudyPlan::StudyPlan(const StudyParameters &study)
-    : kind(!study.methods.empty()  ? Kind::methods // on one level or on several
-           : !study.levels.empty() ? Kind::levels
-                                   : Kind::cases)
+    : kind(!study.aim.empty() || !study.methods.empty() ? Kind::methods // on one level or on several
+           : !study.levels.empty()                      ? Kind::levels
+                                                        : Kind::cases)
     , base(study.read_scene())
     , task(study)
   {
     switch (kind)
       {
         case Kind::methods:
-          plan_methods(study);
-          if (!study.levels.empty())
+          if (study.aim.empty())
+            plan_methods(study);
+          else
+            plan_aim(study);
+          if (study.aim.empty() && !study.levels.empty())
             plan_methods_on_levels(study);
           break;
         case Kind::levels:
@@ -132,7 +135,8 @@ namespace Supple
       {
         const std::string entry = override.entry();
         // Steps of methods are told by the scene's end, which these make.
-        if (kind == Kind::methods && (entry == "Time/Step" || entry == "Time/Steps"))
+        if (kind == Kind::methods &&
+            (entry == "Time/Step" || entry == "Time/Steps" || runs.empty()))
           continue;
         const auto sets_it = [&](const PlannedRun &run) {
           return last_of(run.overrides, entry) != nullptr;
@@ -236,6 +240,27 @@ namespace Supple
     check_names(runs, place);
     if (!study.reference.empty())
       plan_method_reference(study);
+  }
+
+
+  void
+  StudyPlan::plan_aim(const StudyParameters &study)
+  {
+    if (base.time.problem == TimeParameters::Problem::stationary)
+      throw InputError(study.place("Aim") + " = " + study.aim + ": the scene is static (" +
+                       base.origin("Time/Problem") +
+                       ") and has no error in time. Space/Aim refines its mesh.");
+    if (study.methods.empty())
+      return;
+    methods = study_items(study.methods, study.place("Methods"));
+    for (const StudyItem &item : methods)
+      {
+        if (!item.rest.empty())
+          throw InputError(study.place("Methods") + ": '" + item.rest + "' of " + item.title +
+                           ": with an Aim steps and tolerances are what is looked for; it must "
+                           "name methods alone.");
+        parameters(method_run(item, "tolerance", "1e-3", study.place("Methods")));
+      }
   }
 
 

@@ -130,11 +130,16 @@ namespace Supple
   void
   StudyQuantities::read_quantities(const StudyParameters &study, const StudyPlan &plan)
   {
-    const std::string place = study.place("Quantities");
+    const std::string place = study.place(study.aim.empty() ? "Quantities" : "Aim of");
     for (const auto &[name, text] :
          named_list(plan.base.probes.points, plan.base.origin("Probes/Points")))
       points.push_back(name);
-    for (const std::string &name : dealii::Utilities::split_string_list(study.quantities, ','))
+    std::string all = study.quantities;
+    if (!study.aim.empty())
+      all = !study.aim_of.empty() ? study.aim_of
+            : points.empty()      ? "final field"
+                                  : "probes, final field";
+    for (const std::string &name : dealii::Utilities::split_string_list(all, ','))
       {
         if (name == "probes" && points.empty())
           throw InputError(plan.changed_by_hand({"Probes/Points"}) + place +

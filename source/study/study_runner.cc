@@ -1,12 +1,14 @@
 #include <supple/study/study_runner.h>
 
 #include <supple/base/error.h>
+#include <supple/base/stopwatch.h>
 #include <supple/run/adaptation.h>
 #include <supple/run/simulation.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -20,7 +22,12 @@ namespace Supple
     public:
       Recorder(const std::set<std::string> &wanted,
                const std::vector<std::string> &probe_columns,
-               StudyRecord &record)
+               StudyRecord &record,
+               const double budget,
+               const MPI_Comm communicator)
+        : record(record)
+        , budget(budget)
+        , communicator(communicator)
       {
         std::vector<std::string> names = Measurement::column_names();
         n_history                      = names.size();
@@ -36,10 +43,27 @@ namespace Supple
         const std::vector<double> row = now.measurement.row();
         for (const auto &[c, column] : columns)
           column->push_back(c < n_history ? row[c] : now.probes[c - n_history]);
+        if (std::isfinite(budget) && !now.last)
+          stop_if_too_slow(now.measurement.step);
         return true;
       }
 
     private:
+      /** @throws ComputationError on all processes */
+      void
+      stop_if_too_slow(const unsigned int step)
+      {
+        const double seconds = dealii::Utilities::MPI::max(stopwatch.seconds(), communicator);
+        if (step == 0 || seconds < budget)
+          return;
+        record.stopped = true;
+        throw ComputationError("it takes longer than another run that is as good");
+      }
+
+      StudyRecord &record;
+      const double budget; ///< [s]
+      const MPI_Comm communicator;
+      const Stopwatch stopwatch;
       std::size_t n_history; ///< columns of history.csv; those of probes.csv come after them
       std::vector<std::pair<std::size_t, std::vector<double> *>> columns;
     };
@@ -79,7 +103,9 @@ namespace Supple
 
 
   StudyRecord
-  StudyRunner::record(const Parameters &parameters, const std::string &folder) const
+  StudyRunner::record(const Parameters &parameters,
+                      const std::string &folder,
+                      const double budget) const
   {
     StudyRecord record;
     Parameters scene;
@@ -99,7 +125,7 @@ namespace Supple
       }
     Simulation simulation(scene, folder, true, communicator);
 
-    Recorder recorder(wanted, simulation.probe_columns(), record);
+    Recorder recorder(wanted, simulation.probe_columns(), record, budget, communicator);
     try
       {
         simulation.run(&recorder);
@@ -125,6 +151,8 @@ namespace Supple
     record.rejected        = summary.effort.rejected_steps;
     record.failed          = summary.effort.failed_steps;
     record.seconds         = seconds_of(summary);
+    if (summary.space_errors)
+      record.space_error = summary.space_errors->in_words();
     if (summary.has_mass)
       record.largest_motion = summary.largest_motion;
     return record;

@@ -1,6 +1,7 @@
 #include <supple/time/arkode_integrator.h>
 
 #include <supple/base/error.h>
+#include <supple/time/runge_kutta_tables.h>
 
 #include <arkode/arkode_arkstep.h>
 #include <nlohmann/json.hpp>
@@ -19,50 +20,11 @@ namespace Supple
     /** Within this part of the step a time is the end of the step: it differs by round-off. */
     constexpr double grid_accuracy = 1e-9;
 
+    /** Errors of a single step above this part of the diameter are no errors any more. */
+    constexpr double largest_error = 0.1;
 
-    /** A method of one stage at c, without an error estimate. */
-    ARKodeButcherTable
-    one_stage_table(const int order, double c)
-    {
-      double b = 1.;
-      return ARKodeButcherTable_Create(1, order, 0, &c, &c, &b, nullptr);
-    }
-
-
-    ARKodeButcherTable
-    table_of(const Method method)
-    {
-      switch (method)
-        {
-          case Method::backward_euler:
-          case Method::implicit_backward_euler:
-            return one_stage_table(1, 1.);
-          case Method::implicit_midpoint:
-            return one_stage_table(2, 0.5);
-          case Method::sdirk2:
-            return ARKodeButcherTable_LoadDIRK(ARKODE_SDIRK_2_1_2);
-          case Method::trbdf2:
-            return ARKodeButcherTable_LoadDIRK(ARKODE_TRBDF2_3_3_2);
-          case Method::esdirk3:
-            return ARKodeButcherTable_LoadDIRK(ARKODE_ESDIRK325L2SA_5_2_3);
-          case Method::esdirk4:
-            return ARKodeButcherTable_LoadDIRK(ARKODE_ESDIRK436L2SA_6_3_4);
-          case Method::esdirk5:
-            return ARKodeButcherTable_LoadDIRK(ARKODE_ESDIRK547L2SA2_7_4_5);
-          case Method::explicit2:
-            return ARKodeButcherTable_LoadERK(ARKODE_HEUN_EULER_2_1_2);
-          case Method::explicit3:
-            return ARKodeButcherTable_LoadERK(ARKODE_BOGACKI_SHAMPINE_4_2_3);
-          case Method::explicit4:
-            return ARKodeButcherTable_LoadERK(ARKODE_ZONNEVELD_5_3_4);
-          case Method::explicit5:
-            return ARKodeButcherTable_LoadERK(ARKODE_DORMAND_PRINCE_7_4_5);
-          case Method::ida:
-            break;
-        }
-      throw ComputationError("ARKode has no such method");
-    }
-
+    /** A force [N] that the error of a step with it will be too large. */
+    constexpr double absurd = 1e30;
 
     EquationOfMotion::Rotations
     rotations_of(const Method method)
@@ -84,20 +46,28 @@ namespace Supple
 
   ArkodeIntegrator::ArkodeIntegrator(const Model &model)
     : DynamicIntegrator(model, rotations_of(model.time.method), held_velocity_of(model.time.method))
+    , split(settings.is_semi_implicit() && !model.forces.are_linear())
     , remembers(adaptive || (!settings.is_explicit() && settings.method != Method::backward_euler))
     , mass_system(context)
     , error(equation.n_unknowns(), model.body.mesh.communicator, context)
     , last_size(settings.step)
   {
+    if (split)
+      equation.split();
     create_memory();
     set_table();
     ARKStepSVtolerances(memory, set_tolerances(), absolute_tolerances);
     if (!settings.is_explicit())
-      set_linear_systems();
+      {
+        set_linear_systems();
+        tie_linear_tolerance(!linear);
+      }
     if (adaptive)
       {
         ARKStepSetMaxStep(memory, longest_step());
         ARKStepSetMaxFirstGrowth(memory, 10.); // not 10000: the first step was not a guess
+        if (split)
+          ARKStepSetMaxErrTestFails(memory, 20); // from a first step that is far too long
       }
     else
       set_step_size(settings.step);
@@ -120,8 +90,11 @@ namespace Supple
   nlohmann::json
   ArkodeIntegrator::save()
   {
-    nlohmann::json saved = {{"time", time}, {"grid", grid}, {"last_size", last_size}};
-    saved["equation"]    = equation.save(adaptive);
+    nlohmann::json saved = {{"time", time},
+                            {"grid", grid},
+                            {"last_size", last_size},
+                            {"was_rejected", was_rejected}};
+    saved["equation"]    = equation.save(adaptive || split);
     if (remembers && started)
       saved["memory"] = save_memory();
     return saved;
@@ -131,9 +104,10 @@ namespace Supple
   void
   ArkodeIntegrator::load(const nlohmann::json &saved)
   {
-    time      = saved.at("time");
-    grid      = saved.at("grid");
-    last_size = saved.at("last_size");
+    time         = saved.at("time");
+    grid         = saved.at("grid");
+    last_size    = saved.at("last_size");
+    was_rejected = saved.at("was_rejected");
     equation.load(saved.at("equation"));
     if (!remembers || !saved.contains("memory"))
       return;
@@ -154,8 +128,12 @@ namespace Supple
         integrator.evaluate(integrator.time_of(time), Sundials::data(y), Sundials::data(f));
       });
     };
-    memory = settings.is_explicit() ? ARKStepCreate(rate, nullptr, 0., unknowns, context)
-                                    : ARKStepCreate(nullptr, rate, 0., unknowns, context);
+    const ARKRhsFn rest = [](sunrealtype time, N_Vector y, N_Vector f, void *self) {
+      return static_cast<ArkodeIntegrator *>(self)->evaluate_rest(time, y, f);
+    };
+    memory = settings.is_explicit()
+               ? ARKStepCreate(rate, nullptr, 0., unknowns, context)
+               : ARKStepCreate(split ? rest : nullptr, rate, 0., unknowns, context);
     Compatibility::collect_arkode_errors(memory, context.message);
     ARKStepSetUserData(memory, this);
     ARKStepSetMaxNumSteps(memory, -1);
@@ -169,15 +147,19 @@ namespace Supple
   void
   ArkodeIntegrator::set_table()
   {
-    const ARKodeButcherTable table = table_of(settings.method);
+    const ARKodeButcherTable table = butcher_table(settings.method);
+    const ARKodeButcherTable rest  = split ? explicit_part(settings.method) : nullptr;
     const int order                = table->q;
     const int status               = settings.is_explicit()
                                        ? ARKStepSetTables(memory, order, table->p, nullptr, table)
-                                       : ARKStepSetTables(memory, order, table->p, table, nullptr);
+                                       : ARKStepSetTables(memory, order, table->p, table, rest);
+    diagonal                       = table->A[table->stages - 1][table->stages - 1];
     set_embedded_formula(*table);
     if (settings.is_explicit())
       stable = find_stable_step(model.implicit_operator, table, end);
     ARKodeButcherTable_Free(table);
+    if (rest)
+      ARKodeButcherTable_Free(rest);
     if (status != 0)
       throw_what_failed();
     check_stability();
@@ -263,10 +245,15 @@ namespace Supple
   {
     system.solve = [this](double *x, const double *b) {
       return failure.guard([&] {
-        if (linear) // one solution must be right
+        sunrealtype gamma;
+        ARKStepGetCurrentGamma(memory, &gamma);
+        if (split)
           {
-            sunrealtype gamma;
-            ARKStepGetCurrentGamma(memory, &gamma);
+            equation.prepare_split(gamma);
+            equation.solve(x, b);
+          }
+        else if (linear) // one solution must be right
+          {
             equation.set_gamma(gamma);
             equation.solve(x, b);
           }
@@ -297,6 +284,8 @@ namespace Supple
                           N_Vector) {
                          auto &integrator = *static_cast<ArkodeIntegrator *>(self);
                          *current         = 1;
+                         if (integrator.split) // the solution looks after it
+                           return 0;
                          return integrator.failure.guard([&] {
                            integrator.equation.linearize(integrator.time_of(time),
                                                          Sundials::data(y),
@@ -313,7 +302,7 @@ namespace Supple
     // The force at the end of a stage follows from the solution of its equation.
     ARKStepSetDeduceImplicitRhs(memory, 1);
     ARKStepSetPredictorMethod(memory, 0);
-    set_linear(settings.method == Method::backward_euler || model.forces.are_linear());
+    set_linear(settings.method == Method::backward_euler || split || model.forces.are_linear());
   }
 
 
@@ -323,7 +312,7 @@ namespace Supple
     linear = is_linear;
     if (linear)
       {
-        ARKStepSetLinear(memory, model.forces.change_operator() ? 1 : 0);
+        ARKStepSetLinear(memory, !split && model.forces.change_operator() ? 1 : 0);
         return;
       }
     ARKStepSetNonlinear(memory);
@@ -339,9 +328,74 @@ namespace Supple
   void
   ArkodeIntegrator::evaluate(const double time, const double *const y, double *const f)
   {
-    equation.evaluate(f, time, y);
+    if (split)
+      equation.evaluate_implicit(f, time, y);
+    else
+      equation.evaluate(f, time, y);
     if (settings.is_explicit())
       equation.solve_mass(f, f);
+  }
+
+
+  /** ARKode takes what fails here for the end of all: instead the error of the step becomes such
+   * that it is rejected. */
+  int
+  ArkodeIntegrator::evaluate_rest(const double time, const N_Vector y, const N_Vector f)
+  {
+    const int status = failure.guard(
+      [&] { equation.evaluate_explicit(Sundials::data(f), time_of(time), Sundials::data(y)); });
+    if (status <= 0 || !adaptive)
+      return status;
+    std::fill_n(Sundials::data(f), equation.n_unknowns(), absurd);
+    return 0;
+  }
+
+
+  void
+  ArkodeIntegrator::renew_splitting()
+  {
+    double size = set_size;
+    if (adaptive)
+      ARKStepGetCurrentStep(memory, &size);
+    equation.renew_splitting(diagonal * size, settings.renewal_angle, was_rejected);
+    was_rejected = false;
+  }
+
+
+  void
+  ArkodeIntegrator::check_growth(const double error) const
+  {
+    if (std::isfinite(error) && error < largest_error * model.body.mesh.diameter())
+      return;
+    std::ostringstream text;
+    text << "the error of a single step is " << error << " m" << advice_on_growth();
+    throw ComputationError(text.str());
+  }
+
+
+  std::string
+  ArkodeIntegrator::advice_on_growth() const
+  {
+    std::ostringstream text;
+    text << "; errors grow from step to step where steps are too long for "
+         << settings.method_name() << ", as those of " << set_size
+         << " s may be here. Shorten the step (Time/Step) or let it vary (Time/Variable steps = "
+            "true)";
+    return text.str();
+  }
+
+
+  void
+  ArkodeIntegrator::throw_too_long()
+  {
+    try
+      {
+        throw_what_failed();
+      }
+    catch (const ComputationError &error)
+      {
+        throw ComputationError(error.what() + advice_on_growth());
+      }
   }
 
 
@@ -383,7 +437,7 @@ namespace Supple
     if (!adaptive)
       set_step_size(past.first_size);
     for (unsigned int step = 0; step < past.n_steps; ++step)
-      if (ARKStepEvolve(memory, 2. * past.end, unknowns, &ode_time, ARK_ONE_STEP) < 0)
+      if (evolve_once(past.end) < 0)
         return false;
     return true;
   }
@@ -395,9 +449,19 @@ namespace Supple
   ArkodeIntegrator::time_of(const double at) const
   {
     if (adaptive)
-      return at;
+      return within_step(at);
     const double from_start = time + (at - ode_start);
     return std::abs(from_start - step_end) < grid_accuracy * settings.step ? step_end : from_start;
+  }
+
+
+  int
+  ArkodeIntegrator::evolve_once(const double end_of_run)
+  {
+    if (adaptive) // what was set is forgotten when it is reached
+      ARKStepSetStopTime(memory, next_stop(ode_time, end_of_run));
+    // a time that one step does not reach: ARKode would interpolate
+    return ARKStepEvolve(memory, 2. * end_of_run, unknowns, &ode_time, ARK_ONE_STEP);
   }
 
 
@@ -409,9 +473,9 @@ namespace Supple
     if (remembers && !adaptive) // of fixed steps one is as good as all, and nothing is decided
       past = {ode_start, set_size, end, 0};
     begin_error();
-    // a time that one step does not reach: ARKode would interpolate
-    const int status = ARKStepEvolve(memory, 2. * end, unknowns, &ode_time, ARK_ONE_STEP);
-    if (status < 0)
+    if (split)
+      renew_splitting();
+    if (evolve_once(end) < 0)
       return false;
     failure.forget(); // what failed on the way was mended by a smaller step
     ++past.n_steps;
@@ -425,6 +489,7 @@ namespace Supple
     long inaccurate, failed;
     ARKStepGetNumErrTestFails(memory, &inaccurate);
     ARKStepGetNumStepSolveFails(memory, &failed);
+    was_rejected                = inaccurate + failed != long(model.effort.rejected_steps);
     model.effort.rejected_steps = inaccurate + failed;
     model.effort.failed_steps   = failed;
   }
@@ -580,6 +645,8 @@ namespace Supple
     const double smallest = settings.step * std::pow(0.5, settings.n_retries + 0.5);
     while (!evolve())
       {
+        if (split)
+          throw_too_long();
         if (0.5 * size < smallest)
           throw_at(size);
         failure.forget();
@@ -594,7 +661,9 @@ namespace Supple
 
     StepReport report;
     report.local_error = embedded_error();
-    report.time        = step_end;
+    if (split)
+      check_growth(report.local_error);
+    report.time = step_end;
     if (report.time == (grid + 1) * settings.step)
       ++grid;
     return report;

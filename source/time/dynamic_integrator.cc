@@ -77,10 +77,41 @@ namespace Supple
   }
 
 
+  void
+  DynamicIntegrator::tie_linear_tolerance(const bool corrected)
+  {
+    // Of a correction of Newton's method: a hundredth is left to the next one, which tells whether
+    // that is enough. In a single solution what is left adds up over the steps.
+    constexpr double of_correction = 1e-2, of_solution = 1e-2, loosest = 1e-4;
+
+    const bool direct = model.solver.name() == "ldlt" || model.solver.name() == "cholmod";
+    if (!adaptive || direct || model.scene.changes("Solver/Tolerance"))
+      return;
+    model.solver.set_tolerance(
+      corrected ? of_correction
+                : std::clamp(of_solution * settings.relative_tolerance, 1e-8, loosest));
+  }
+
+
   double
   DynamicIntegrator::shortest_step(const double end_of_run)
   {
     return 1e-12 * end_of_run;
+  }
+
+
+  double
+  DynamicIntegrator::within_step(const double at) const
+  {
+    // stages of some methods are beyond the end of their step
+    const auto next = std::upper_bound(settings.instants.begin(),
+                                       settings.instants.end(),
+                                       time + 2. * settings.moment());
+    if (next != settings.instants.end() && at > *next - settings.moment())
+      return *next - settings.moment();
+    if (at < time + settings.moment() && settings.is_instant(time))
+      return time + settings.moment();
+    return at;
   }
 
 
@@ -187,8 +218,8 @@ namespace Supple
   {
     Configuration &configuration = model.configuration;
     configuration.begin_step();
-    if (!started && (observed || guarded))
-      set_forces(time);
+    if ((!started || settings.is_instant(time)) && (observed || guarded))
+      set_forces(within_step(time));
     if (observed || guarded)
       set_momentum_at_start();
     has_momentum = false;
@@ -251,7 +282,8 @@ namespace Supple
         configuration.reject(model.effort);
         throw;
       }
-    report.dt = report.time - time;
+    report.dt         = report.time - time;
+    const double last = within_step(report.time);
     if (backward_euler) // dt^2/2 |u''|
       report.local_error =
         0.5 * report.dt *
@@ -261,7 +293,7 @@ namespace Supple
     if (!equation.rotations_are_frozen())
       configuration.update_rotations(model.effort);
     if (observed)
-      observe(report);
+      observe(report, last);
     if (equation.rotations_are_frozen())
       configuration.update_rotations(model.effort);
     return report;
@@ -297,7 +329,7 @@ namespace Supple
    * the balance then is dissipated.
    */
   void
-  DynamicIntegrator::observe(StepReport &report)
+  DynamicIntegrator::observe(StepReport &report, const double last)
   {
     const PhaseTimer timer(model.effort, Phase::diagnostics);
     const Configuration &configuration = model.configuration;
@@ -326,7 +358,7 @@ namespace Supple
     };
     if (start_weight > 0.)
       add_work(start_weight);
-    set_forces(report.time);
+    set_forces(last);
     add_work(1. - start_weight);
     report.load_work += model.forces.work_of_time(configuration,
                                                   report.time - report.dt,

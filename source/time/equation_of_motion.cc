@@ -3,6 +3,8 @@
 #include <supple/base/error.h>
 #include <supple/mechanics/vertex_values.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -55,6 +57,8 @@ namespace Supple
     const Tangent wanted              = model.time.tangent;
     model.configuration.rotations_are = rotations;
     tangent                           = Tangent::frozen;
+    if (is_split)
+      return;
     if (rotations == Rotations::following && model.forces.change_operator() &&
         model.forces.have_energy() && wanted != Tangent::frozen)
       tangent = wanted == Tangent::definite ? Tangent::definite : Tangent::consistent;
@@ -194,6 +198,113 @@ namespace Supple
 
 
   void
+  EquationOfMotion::split()
+  {
+    is_split  = true;
+    tangent   = Tangent::frozen;
+    gives_way = false;
+    model.body.initialize(kept_force);
+  }
+
+
+  void
+  EquationOfMotion::renew_splitting(const double new_gamma, const double angle, const bool wanted)
+  {
+    at_start              = true;
+    has_start             = false;
+    const bool other_step = std::abs(new_gamma - gamma) > 1e-12 * new_gamma;
+    if (!splitting || other_step || wanted || angle == 0. ||
+        model.implicit_operator.cells_have_turned(angle * numbers::PI / 180.))
+      renew_rotations();
+  }
+
+
+  void
+  EquationOfMotion::renew_rotations()
+  {
+    model.forces.update_tangent(tangent, model.configuration, configuration_time, model.effort);
+    model.implicit_operator.keep_rotations();
+    splitting = true;
+    gamma     = 0.;
+    if (keeps_origin)
+      origin = {model.configuration.displacement(), configuration_time, 0., false};
+  }
+
+
+  /** With motions f^I depends on time; without, that of the start of the step is asked for in each
+   * of its stages. */
+  void
+  EquationOfMotion::evaluate_implicit(double *f, const double time, const double *y)
+  {
+    // all processes or none: what follows is collective
+    const bool same = has_start && std::equal(start.begin(), start.end(), y);
+    if (has_start && Utilities::MPI::min(same ? 1 : 0, model.body.mesh.communicator) == 1)
+      {
+        std::copy(rates.begin(), rates.end(), f);
+        return;
+      }
+    const DampingParameters &damping = model.damping;
+    set_configuration(time, y);
+    model.implicit_operator.elastic_vmult(force,
+                                          model.configuration.displacement(),
+                                          model.configuration.velocity());
+    if (damping.mass_factor > 0.)
+      {
+        model.body.set_mass_product(scratch, model.configuration.velocity());
+        force.add(damping.mass_factor, scratch);
+      }
+    if (damping.viscous > 0.)
+      force.add(damping.viscous, model.configuration.velocity());
+    force *= -1.;
+    scratch = model.configuration.velocity();
+    for (Vector *vector : {&scratch, &force})
+      model.constraints.set_zero(*vector);
+    copy_out(f, scratch);
+    copy_out(f + n, force);
+    if (!has_start && !model.constraints.move())
+      {
+        has_start = true;
+        start.assign(y, y + 2 * n);
+        rates.assign(f, f + 2 * n);
+      }
+  }
+
+
+  void
+  EquationOfMotion::evaluate_explicit(double *f, const double time, const double *y)
+  {
+    set_configuration(time, y);
+    if (!at_start)
+      model.configuration.update_rotations(model.effort);
+    at_start = false;
+    model.forces.set_force(force, model.configuration, time, model.effort);
+    model.implicit_operator.elastic_vmult(kept_force,
+                                          model.configuration.displacement(),
+                                          model.configuration.velocity());
+    force += kept_force;
+    model.constraints.set_zero(force);
+    if (!all_finite(force))
+      throw ComputationError("the forces are not finite numbers");
+    std::fill_n(f, n, 0.);
+    copy_out(f + n, force);
+  }
+
+
+  void
+  EquationOfMotion::prepare_split(const double new_gamma)
+  {
+    if (std::abs(new_gamma - gamma) <= 1e-12 * new_gamma)
+      return;
+    gamma = 0.; // until all has succeeded
+    if (model.implicit_operator.assemble(new_gamma))
+      model.solver.prepare(model.configuration.displacement());
+    gamma = new_gamma;
+    if (keeps_origin)
+      origin.gamma = gamma;
+  }
+
+
+  void
   EquationOfMotion::mass_product(double *y, const double *x)
   {
     std::copy_n(x, n, y);
@@ -313,9 +424,17 @@ namespace Supple
     scatter_by_vertex(model.body, saved.at("displacement"), displacement.begin());
     model.configuration.update_rotations(model.effort);
     configuration_time = saved.at("time");
-    gamma              = saved.at("gamma");
     replaced           = saved.at("replaced");
-    assemble();
+    if (is_split)
+      {
+        renew_rotations();
+        prepare_split(saved.at("gamma"));
+      }
+    else
+      {
+        gamma = saved.at("gamma");
+        assemble();
+      }
     displacement = now;
     model.configuration.update_rotations(model.effort);
   }

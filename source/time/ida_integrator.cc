@@ -150,7 +150,7 @@ namespace Supple
                           const double *const rate,
                           double *const F)
   {
-    equation.evaluate(work_space.data(), time, y);
+    equation.evaluate(work_space.data(), within_step(time), y);
     equation.mass_product(F, rate);
     for (unsigned int i = 0; i < equation.n_unknowns(); ++i)
       F[i] -= work_space[i];
@@ -161,7 +161,7 @@ namespace Supple
   IdaIntegrator::start()
   {
     equation.get_unknowns(unknowns.data());
-    equation.evaluate(work_space.data(), time, unknowns.data());
+    equation.evaluate(work_space.data(), within_step(time), unknowns.data());
     equation.solve_mass(rates.data(), work_space.data());
     begin_at(time, settings.step, end);
     begin_past(time, settings.step);
@@ -192,8 +192,11 @@ namespace Supple
     double at = past.start;
     begin_at(past.start, past.first_size, past.end);
     for (unsigned int step = 0; step < past.n_steps; ++step)
-      if (IDASolve(memory, past.end, &at, unknowns, rates, IDA_ONE_STEP) < 0)
-        return false;
+      {
+        IDASetStopTime(memory, next_stop(at, past.end));
+        if (IDASolve(memory, past.end, &at, unknowns, rates, IDA_ONE_STEP) < 0)
+          return false;
+      }
     return true;
   }
 
@@ -212,10 +215,12 @@ namespace Supple
   StepReport
   IdaIntegrator::take_step()
   {
-    if (!started)
+    // a formula over steps of the past must not reach over a jump
+    if (!started || settings.is_instant(time))
       start();
     context.message.clear();
     StepReport report;
+    IDASetStopTime(memory, next_stop(time, end));
     const int status = IDASolve(memory, end, &report.time, unknowns, rates, IDA_ONE_STEP);
     count_rejections();
     if (status < 0)

@@ -3,6 +3,7 @@
 #include <supple/base/error.h>
 #include <supple/input/entries.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Supple
@@ -23,11 +24,35 @@ namespace Supple
       {"esdirk3", Method::esdirk3},
       {"esdirk4", Method::esdirk4},
       {"esdirk5", Method::esdirk5},
+      {"imex3", Method::imex3},
+      {"imex4", Method::imex4},
+      {"imex5", Method::imex5},
       {"explicit2", Method::explicit2},
       {"explicit3", Method::explicit3},
       {"explicit4", Method::explicit4},
       {"explicit5", Method::explicit5},
       {"ida", Method::ida}};
+
+
+    void
+    declare_method(ParameterHandler &prm, TimeMethod &method)
+    {
+      add_choice(
+        prm,
+        "Method",
+        method,
+        methods,
+        "How a dynamic problem steps in time. backward euler: first order, one linear system a "
+        "step, the rotations of the cells frozen at its start; it damps. implicit backward euler: "
+        "the same with rotations that follow, by Newton's method. implicit midpoint: second order, "
+        "damps nothing. sdirk2, trbdf2, esdirk3, esdirk4, esdirk5: diagonally implicit Runge-Kutta "
+        "methods of that order. imex3, imex4, imex5: semi-implicit Runge-Kutta methods of that "
+        "order, whose stages are one linear system each, all with the same matrix: the rotations "
+        "of "
+        "the cells follow explicitly, which limits the step. explicit2 to explicit5: Runge-Kutta "
+        "methods for soft or tiny bodies with lumped mass. ida: backward differentiation with "
+        "variable steps.");
+    }
   } // namespace
 
 
@@ -49,6 +74,13 @@ namespace Supple
   }
 
 
+  bool
+  TimeParameters::is_semi_implicit() const
+  {
+    return method == Method::imex3 || method == Method::imex4 || method == Method::imex5;
+  }
+
+
   unsigned int
   TimeParameters::order() const
   {
@@ -63,12 +95,15 @@ namespace Supple
         case Method::explicit2:
           return 2;
         case Method::esdirk3:
+        case Method::imex3:
         case Method::explicit3:
           return 3;
         case Method::esdirk4:
+        case Method::imex4:
         case Method::explicit4:
           return 4;
         case Method::esdirk5:
+        case Method::imex5:
         case Method::explicit5:
           return 5;
         case Method::ida:
@@ -89,6 +124,28 @@ namespace Supple
   TimeParameters::end() const
   {
     return problem == Problem::stationary ? 1. : n_steps * step;
+  }
+
+
+  double
+  TimeParameters::next_stop(const double time) const
+  {
+    const double later = time + 2. * moment();
+    double stop        = end();
+    const auto instant = std::upper_bound(instants.begin(), instants.end(), later);
+    if (instant != instants.end())
+      stop = std::min(stop, *instant);
+    if (stop_interval > 0.)
+      stop = std::min(stop, stop_interval * (std::floor(later / stop_interval) + 1.));
+    return stop;
+  }
+
+
+  bool
+  TimeParameters::is_instant(const double time) const
+  {
+    const auto next = std::lower_bound(instants.begin(), instants.end(), time - moment());
+    return next != instants.end() && *next <= time + moment();
   }
 
 
@@ -165,6 +222,21 @@ namespace Supple
 
 
   void
+  TimeParameters::declare_renewal_angle(ParameterHandler &prm)
+  {
+    add(prm,
+        "Renewal angle",
+        renewal_angle,
+        "degrees",
+        Range::at_least(0),
+        "imex3 to imex5: the matrix has the rotations of the cells as they were when it was made, "
+        "and is made anew when one has turned by more than this, when a variable step is another "
+        "one, or after a step that was rejected. 0: in every step. 180: never for that reason. It "
+        "changes the error little, but an old matrix makes long steps unstable.");
+  }
+
+
+  void
   TimeParameters::declare_newton(ParameterHandler &prm)
   {
     add(prm,
@@ -212,17 +284,7 @@ namespace Supple
                problem,
                {{"dynamic", Problem::dynamic}, {"static", Problem::stationary}},
                "Motion in time, or equilibrium under the loads at time 1, which grow in steps.");
-    add_choice(
-      prm,
-      "Method",
-      method,
-      methods,
-      "How a dynamic problem steps in time. backward euler: first order, one linear system a "
-      "step, the rotations of the cells frozen at its start; it damps. implicit backward euler: "
-      "the same with rotations that follow, by Newton's method. implicit midpoint: second order, "
-      "damps nothing. sdirk2, trbdf2, esdirk3, esdirk4, esdirk5: diagonally implicit Runge-Kutta "
-      "methods of that order. explicit2 to explicit5: Runge-Kutta methods for soft or tiny "
-      "bodies with lumped mass. ida: backward differentiation with variable steps.");
+    declare_method(prm, method);
     add(prm,
         "Step",
         step,
@@ -243,8 +305,9 @@ namespace Supple
       adaptive,
       {{"true", true}, {"false", false}},
       "Whether the step follows from the tolerances below. Methods with an error estimate: sdirk2, "
-      "trbdf2, esdirk3 to esdirk5, explicit2 to explicit5; ida always.");
+      "trbdf2, esdirk3 to esdirk5, imex3 to imex5, explicit2 to explicit5; ida always.");
     declare_tolerances(prm);
+    declare_renewal_angle(prm);
     declare_newton(prm);
     add_choice(
       prm,

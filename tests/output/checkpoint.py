@@ -78,6 +78,9 @@ cases = {"polar": {}, "linear": {"Corotation/Rotation": "none"},
                           "Motion/Displacement": "free; free; 2*sin(3*t)", "Start/Velocity": "0; 0; 0"},
          "variable": {"Time/Method": "trbdf2", "Time/Variable steps": "true", "Time/Step": 0.01, "Time/Relative tolerance": 1e-3,
                       "Time/Steps": 20},
+         "imex": {"Time/Method": "imex4", "Time/Step": 0.01, "Time/Renewal angle": 5},
+         "imex variable": {"Time/Method": "imex5", "Time/Variable steps": "true", "Time/Step": 0.01, "Time/Relative tolerance": 1e-3,
+                           "Time/Steps": 20, "Time/Renewal angle": 5},
          "explicit": {"Time/Method": "explicit4", "Time/Variable steps": "true", "Time/Step": 0.002, "Material/Mass": "lumped", "Time/Steps": 20},
          "ida": {"Time/Method": "ida", "Time/Step": 0.005, "Time/Relative tolerance": 1e-3, "Time/Steps": 20}}
 SIGNALS = {"kept": [signal.SIGTERM, signal.SIGKILL]}     # of the others, chance takes one

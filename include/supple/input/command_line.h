@@ -26,6 +26,7 @@ namespace Supple
     std::string output;              ///< of --output, may be empty
     std::string format = "prm";      ///< of --print-parameters
     bool quiet         = false;
+    bool aims          = false; ///< an error is given, and the soonest run is looked for
 
     /** @throws InputError */
     static CommandLine

@@ -71,6 +71,11 @@ namespace Supple
     void
     update_rotations(Effort &effort);
 
+    /** What tangents are made with stays as it is now, until called again: the rotations of the
+     * cells, and the gradients of the volume of patches. */
+    void
+    keep_for_tangent();
+
     /** The displacement of the surface that pressure follows [m]. */
     const Vector &
     surface_displacement() const

@@ -32,7 +32,8 @@ namespace Supple
    * with the sums over the cells e of a patch P and the volume change theta_e of VolumeMeasure,
    * which is linear in the displacement as long as H is kept: rotations, or cofactors, of the last
    * update(). s_P is the mean stress, positive in tension. The second derivative of theta_e is not
-   * here but with the rotations, in Law.
+   * here but with the rotations, in Law. The tangent may lag: it has the c_P of the last keep(), if
+   * there was one.
    *
    * Each process computes Theta of its own patches, all cells of which it has, and learns that of
    * the patches next to them; the forces of these on its own nodes it knows by itself.
@@ -54,6 +55,10 @@ namespace Supple
     /** H of every cell, from the displacement and its rotations. */
     void
     update(const CellRotations::List &rotations, const double *displacement);
+
+    /** The tangent has the c_P of now, until called again. */
+    void
+    keep();
 
     /** f -= sum s_P c_P */
     void
@@ -102,24 +107,46 @@ namespace Supple
       return bulk[patch] / volume[patch];
     }
 
-    /** c_P.w of own patches; @p w must have valid ghost values. */
+    /** c_P.w of own patches, with the c_P of the tangent; @p w must have valid ghost values. */
     void
-    reduce(Vector &of_patches, const double *w) const;
+    reduce(Vector &of_patches, const double *w) const
+    {
+      reduce(of_patches, w, of_tangent());
+    }
 
-    /** y += sum c_P times a number of each patch, whose ghost values must be valid. */
+    /** y += sum c_P times a number of each patch, whose ghost values must be valid, with the c_P of
+     * the tangent. */
     void
-    expand(double *y, const double *of_patches) const;
+    expand(double *y, const double *of_patches) const
+    {
+      expand(y, of_patches, of_tangent());
+    }
 
-    /** Calls @p visit(node, c) for each node of a patch. */
+    /** Calls @p visit(node, c) for each node of a patch, with the c_P of the tangent. */
     template <class Visit>
     void
     for_each_node(const unsigned int patch, const Visit &visit) const
     {
       for (std::size_t k = start[patch]; k < start[patch + 1]; ++k)
-        visit(node[k], gradient[k]);
+        visit(node[k], of_tangent()[k]);
     }
 
   private:
+    /** c_P at the nodes of all patches, one patch after the other. */
+    using Gradients = std::vector<std::array<double, 3>>;
+
+    const Gradients &
+    of_tangent() const
+    {
+      return kept_gradient.empty() ? gradient : kept_gradient;
+    }
+
+    void
+    reduce(Vector &of_patches, const double *w, const Gradients &gradients) const;
+
+    void
+    expand(double *y, const double *of_patches, const Gradients &gradients) const;
+
     void
     find_nodes(const std::vector<PatchCell> &list);
 
@@ -140,9 +167,10 @@ namespace Supple
     std::vector<std::array<std::size_t, 4>> places; ///< of each cell's nodes in gradient
     std::vector<std::size_t> start;                 ///< of each patch in node and gradient
     std::vector<unsigned int> node;
-    std::vector<std::array<double, 3>> gradient; ///< c_P
-    std::vector<double> bulk, volume, constant;  ///< kappa, W_P and W_P Theta_P without c_P.u
-    mutable Vector change;                       ///< of patches, at hand
+    Gradients gradient;                         ///< c_P of the last update()
+    Gradients kept_gradient;                    ///< c_P of the last keep(); none: those above
+    std::vector<double> bulk, volume, constant; ///< kappa, W_P and W_P Theta_P without c_P.u
+    mutable Vector change;                      ///< of patches, at hand
   };
 } // namespace Supple
 

@@ -25,6 +25,7 @@ namespace Supple
     const bool stationary;
     Effort effort;
     const Mesh mesh;
+    const TimeParameters time; ///< those of the scene, with what variable steps must not pass over
     const Body body;
     const Constraints constraints;
     Forces forces;

@@ -1,11 +1,8 @@
 #ifndef supple_skipped_pulses_h
 #define supple_skipped_pulses_h
 
-#include <supple/base/expression.h>
 #include <supple/run/listener.h>
-#include <supple/scene/parameters.h>
-
-#include <deal.II/base/bounding_box.h>
+#include <supple/run/time_dependence.h>
 
 #include <string>
 #include <vector>
@@ -20,8 +17,11 @@ namespace Supple
   class SkippedPulses : public Listener
   {
   public:
-    /** @param box of the body, at a few points of which expressions of the place are taken */
-    SkippedPulses(const Parameters &parameters, const dealii::BoundingBox<3> &box);
+    /** @param steps those of the run, must outlive this
+     * @param box of the body, at a few points of which expressions of the place are taken */
+    SkippedPulses(const Parameters &parameters,
+                  const TimeParameters &steps,
+                  const dealii::BoundingBox<3> &box);
 
     void
     begin(const Observation &now, bool resumed) override;
@@ -47,28 +47,20 @@ namespace Supple
     /** One component of a load or motion. */
     struct Course
     {
-      std::string entry;
-      Expression value;
-      std::vector<dealii::Point<3>> points;
-      std::vector<double> instants; ///< numbers in its text, perhaps times [s], ascending
-
+      TimeDependence of;
       double lowest, highest;    ///< in the run so far
       double excess = 0.;        ///< the most by which it left the range of its values at both ends
       double from = 0., to = 0.; ///< the step in which it did [s]
     };
 
-    void
-    add(const std::string &expressions,
-        const std::string &entry,
-        const std::string &origin,
-        const dealii::BoundingBox<3> &box);
-
     /** Where to look at it: on a grid between the ends, at its instants and amid them. */
     static std::vector<double>
     times_between(double from, double to, const std::vector<double> &instants);
 
-    static void
-    look(Course &course, double from, double to);
+    void
+    look(Course &course, double from, double to) const;
+
+    const TimeParameters &steps;
 
     std::vector<Course> courses;
     double time = 0.; ///< up to which they were looked at [s]

@@ -63,7 +63,16 @@ namespace Supple
           const std::string &file,
           const std::vector<Override> &overrides);
 
+    /** The same of a task that has no file but that of its scene. @throws InputError */
+    void
+    parse_for_scene(dealii::ParameterHandler &prm,
+                    const std::string &scene_file,
+                    const std::vector<Override> &overrides);
+
   private:
+    void
+    parse_rest(dealii::ParameterHandler &prm, const std::vector<Override> &overrides);
+
     std::string subsection;
     ParameterFile file;
   };

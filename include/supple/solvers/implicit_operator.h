@@ -40,6 +40,15 @@ namespace Supple
     bool
     assemble(double gamma);
 
+    /** A keeps the rotations of now, whatever gamma is, until called again. */
+    void
+    keep_rotations();
+
+    /** Whether a cell, on any process, has turned by more than this angle [rad] since
+     * keep_rotations(). Collective. */
+    bool
+    cells_have_turned(double angle) const;
+
     /** What a checkpoint keeps beside the configuration: of what A with kept rotations is made. */
     nlohmann::json
     save() const;
@@ -64,6 +73,11 @@ namespace Supple
      * mass, otherwise computed from the forces. */
     void
     stiffness_vmult(Vector &y, const Vector &x) const;
+
+    /** y = K' (u + b v) with the stiffness damping b, zero where the body is held; there u and v
+     * are what they are. */
+    void
+    elastic_vmult(Vector &y, const Vector &u, const Vector &v) const;
 
     /** Sets a matrix to the last A without patches, but with cells that resist to a change of
      * volume about as much as to shear: to precondition with. */
@@ -123,6 +137,10 @@ namespace Supple
     bool
     renew();
 
+    /** A with the rotations that are kept. @return whether it has changed */
+    bool
+    assemble_kept(const TangentFactors &wanted, double wanted_diagonal);
+
     void
     mask(SymmetricBlockMatrix &matrix) const;
 
@@ -139,7 +157,8 @@ namespace Supple
     SymmetricBlockMatrix A;
     TangentFactors factors;
     double diagonal = 0.;    ///< beside them
-    bool renewable  = false; ///< A has kept rotations
+    bool renewable  = false; ///< A has kept rotations, and renews those of cells that have turned
+    bool lags       = false; ///< A has those of the last keep_rotations()
     bool made       = true;  ///< false where A must be assembled from them
     std::unique_ptr<SymmetricScalarMatrix> M;
     std::vector<std::size_t> masked_lower;    ///< positions in A.lower

@@ -66,6 +66,18 @@ namespace Supple
       return {};
     }
 
+    /** Further solutions leave at most this part of the right hand side, instead of what the scene
+     * asks for. */
+    void
+    set_tolerance(double tolerance);
+
+    /** What the next solution leaves at most. */
+    double
+    tolerance() const
+    {
+      return parameters.tolerance;
+    }
+
     std::string reason; ///< why this solver
 
   protected:
@@ -76,7 +88,7 @@ namespace Supple
     set_residual(Vector &residual, const Vector &x, const Vector &b) const;
 
     const ImplicitOperator &A;
-    const SolverParameters &parameters;
+    SolverParameters parameters; ///< of the scene, but for the tolerance
     Effort &effort;
 
   private:

@@ -18,6 +18,8 @@ namespace Supple
 
     std::string reference_level; ///< with methods and levels
 
+    std::string aim; ///< as written; then one run is looked for, and nothing is compared
+    std::string aim_of;
     std::string variants;
     std::string reference;
     std::string exact;
@@ -41,10 +43,31 @@ namespace Supple
     static StudyParameters
     read(const std::string &file, const std::vector<Override> &overrides);
 
+    /**
+     * The aim of a scene that is no study: its run is looked for.
+     * @param overrides among them Study/Aim. Those of subsection Study change the search, all
+     * others go to its runs.
+     * @throws InputError
+     */
+    static StudyParameters
+    aim_of_scene(const std::string &file, const std::vector<Override> &overrides);
+
+    /** The aim as a part of what the error is relative to. @throws InputError if it is no
+     * percentage, or makes no sense */
+    double
+    relative_aim() const;
+
     void
     declare(dealii::ParameterHandler &prm);
 
   private:
+    void
+    declare_aim(dealii::ParameterHandler &prm);
+
+    /** @throws InputError */
+    void
+    check_aim() const;
+
     void
     declare_runs(dealii::ParameterHandler &prm);
 

@@ -59,6 +59,9 @@ namespace Supple
     Kind kind;
     std::vector<PlannedRun> runs;
 
+    /** Of a study with an aim: those that may be tried; none: all. */
+    std::vector<StudyItem> methods;
+
     /** From coarse to fine: the last one counts, the first one tells how good that is. */
     std::vector<PlannedRun> references;
 
@@ -81,10 +84,21 @@ namespace Supple
     std::string
     changed_by_hand(const std::vector<std::string> &entries) const;
 
+    /** A method with this step or tolerance. @param word steps or tolerances, or one of them
+     * @throws InputError */
+    PlannedRun
+    method_run(const StudyItem &item,
+               const std::string &word,
+               const std::string &number,
+               const std::string &place) const;
+
     /** The parameters that all runs start from. */
     const Parameters base;
 
   private:
+    void
+    plan_aim(const StudyParameters &study);
+
     void
     plan_methods(const StudyParameters &study);
 
@@ -104,13 +118,6 @@ namespace Supple
     /** Refuses what is set on the command line, but set otherwise in each run. */
     void
     check_command_line() const;
-
-    /** A method with this step or tolerance. @param word steps or tolerances, or one of them */
-    PlannedRun
-    method_run(const StudyItem &item,
-               const std::string &word,
-               const std::string &number,
-               const std::string &place) const;
 
     const TaskParameters task;
   };

@@ -24,7 +24,8 @@ namespace Supple
     };
 
     Status status = Status::done;
-    std::string reason; ///< of a failure or refusal
+    std::string reason;   ///< of a failure or refusal
+    bool stopped = false; ///< for it took too long; then it counts as failed
 
     std::map<std::string, std::vector<double>> columns;
     Vector displacement;        ///< at the end
@@ -38,6 +39,7 @@ namespace Supple
     double seconds        = 0.;            ///< median of the timed runs
     std::map<std::string, double> summary; ///< numbers of summary.json, such as "solver/solves"
     std::vector<std::string> warnings;
+    std::string space_error; ///< in words; empty where it is not known
 
     /** The names of the columns of history.csv and probes.csv that a scene gives. */
     static std::set<std::string>

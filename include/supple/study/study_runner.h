@@ -4,6 +4,7 @@
 #include <supple/scene/parameters.h>
 #include <supple/study/study_record.h>
 
+#include <limits>
 #include <set>
 #include <string>
 
@@ -25,11 +26,14 @@ namespace Supple
     /**
      * Runs a scene once and keeps what is asked for.
      * @param folder of its files; empty: none
+     * @param budget a run that takes longer is stopped [s]
      * @return a record that may be of a failure
      * @throws InputError, InterruptedError
      */
     StudyRecord
-    record(const Parameters &parameters, const std::string &folder) const;
+    record(const Parameters &parameters,
+           const std::string &folder,
+           double budget = std::numeric_limits<double>::infinity()) const;
 
     /** The median of the run time of some runs that measure and write nothing, largest over all
      * processes [s]. @throws ComputationError */

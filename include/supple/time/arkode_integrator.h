@@ -20,6 +20,10 @@ namespace Supple
    *
    * all other implicit methods let them follow and find each stage by Newton's method. A fixed step
    * that fails is tried again in halves, until the next multiple of the step is reached.
+   *
+   * Semi-implicit methods split the force, see EquationOfMotion::split(), and have two tables: one
+   * for the part that is linear in the unknowns, whose matrix serves all stages of many steps, and
+   * one for the rest, which is only evaluated. Of linear scenes there is no rest.
    */
   class ArkodeIntegrator : public DynamicIntegrator
   {
@@ -97,9 +101,32 @@ namespace Supple
     void
     set_linear_systems();
 
-    /** ARKode's right hand side: the net force, over the mass where there is no mass matrix. */
+    /** ARKode's right hand side: the net force, over the mass where there is no mass matrix; of
+     * semi-implicit methods the part that is linear. */
     void
     evaluate(double time, const double *y, double *f);
+
+    /** The rest of it. */
+    int
+    evaluate_rest(double time, N_Vector y, N_Vector f);
+
+    /** Of semi-implicit methods, at the start of a step. */
+    void
+    renew_splitting();
+
+    /** @throws ComputationError if this step of a semi-implicit method, with this error [m], was
+     * too long: errors grow from step to step */
+    void
+    check_growth(double error) const;
+
+    /** What to do about it. */
+    std::string
+    advice_on_growth() const;
+
+    /** Says what failed in a fixed step of a semi-implicit method: smaller steps from here on would
+     * not mend what has grown before. */
+    [[noreturn]] void
+    throw_too_long();
 
     /** Takes the unknowns from the configuration and forgets the past. */
     void
@@ -116,7 +143,11 @@ namespace Supple
     void
     set_end(double end_of_run);
 
-    /** One step of ARKode. @return whether it succeeded */
+    /** One step of ARKode, up to the next stop if it is variable. @return negative if it failed */
+    int
+    evolve_once(double end_of_run);
+
+    /** The same with all that belongs to it. @return whether it succeeded */
     bool
     evolve();
 
@@ -149,6 +180,9 @@ namespace Supple
     StepReport
     take_fixed_step();
 
+    const bool split;                  ///< the method is semi-implicit, and there is a rest
+    double diagonal   = 0.;            ///< gamma over the step, of a semi-implicit method
+    bool was_rejected = false;         ///< the last step, or a try of it
     const bool remembers;              ///< more than the configuration from step to step
     bool linear = false;               ///< each stage is one linear system
     std::vector<double> error_weights; ///< of the stages of a fixed step, see add_stage()

@@ -5,6 +5,8 @@
 #include <supple/time/equation_of_motion.h>
 #include <supple/time/sundials.h>
 
+#include <algorithm>
+
 namespace Supple
 {
   /** What all integrators of the equation of motion share: SUNDIALS's surroundings, and a look at
@@ -54,10 +56,28 @@ namespace Supple
     double
     set_tolerances();
 
+    /** Has variable steps with conjugate gradients solve their linear systems as well as the error
+     * that is asked for needs, unless the scene says how well.
+     * @param corrected whether Newton's method mends what is left */
+    void
+    tie_linear_tolerance(bool corrected);
+
     /** Of variable steps [s]: those that end up here would go on for ever.
      * @param end_of_run [s] */
     static double
     shortest_step(double end_of_run);
+
+    /** The time at which the loads and motions of the step that begins at `time` count: where they
+     * jump at an end of the step, within it. */
+    double
+    within_step(double at) const;
+
+    /** Where the variable step that begins at a time ends at the latest [s]. */
+    double
+    next_stop(const double from, const double end_of_run) const
+    {
+      return std::min(settings.next_stop(from), end_of_run);
+    }
 
     /** From where on SUNDIALS's decisions are kept. */
     struct Past
@@ -113,9 +133,10 @@ namespace Supple
     std::vector<N_Vector>
     remembered() const;
 
-    /** Reactions, work and what was expended. */
+    /** Reactions, work and what was expended.
+     * @param last time of the step at which forces count */
     void
-    observe(StepReport &report);
+    observe(StepReport &report, double last);
 
     /** To be called before a step that is observed. */
     void

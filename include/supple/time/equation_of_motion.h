@@ -54,6 +54,36 @@ namespace Supple
     void
     evaluate(double *f, double time, const double *y);
 
+    /**
+     * Splits f = f^I + f^E for semi-implicit methods, from here on:
+     *
+     *   f^I = (v, -K' (u + b v) - a M v - c v),   f^E = (0, all other forces),
+     *
+     * K' with the rotations that the cells had at the last renew_splitting(): f^I is linear in the
+     * unknowns, and f^E what the rotations have added since, and the loads. Any K' is right; an old
+     * one makes long steps unstable.
+     */
+    void
+    split();
+
+    /** To be called at the start of a step with its gamma, after begin_step(): takes the rotations
+     * of the configuration for K' if a cell has turned by more than an angle [degrees] since, if
+     * gamma is another one, or if it is @p wanted. */
+    void
+    renew_splitting(double gamma, double angle, bool wanted);
+
+    /** f^I, with M_ff as for evaluate(). */
+    void
+    evaluate_implicit(double *f, double time, const double *y);
+
+    /** f^E. */
+    void
+    evaluate_explicit(double *f, double time, const double *y);
+
+    /** Prepares solve() for a gamma, with the K' of f^I. @throws ComputationError */
+    void
+    prepare_split(double gamma);
+
     /** (x_u, M_ff x_q) */
     void
     mass_product(double *y, const double *x);
@@ -147,6 +177,10 @@ namespace Supple
     void
     assemble();
 
+    /** The same with other rotations than those of the last time. */
+    void
+    renew_rotations();
+
     /** The operator of which save() was called, and the configuration as it is. */
     void
     assemble_as_at(const nlohmann::json &saved);
@@ -171,6 +205,13 @@ namespace Supple
 
     double gamma = 0.;
     Vector force, scratch, solution;
+
+    bool is_split  = false;
+    bool splitting = false;           ///< was made
+    bool at_start  = false;           ///< of a step: the rotations are those of its unknowns
+    Vector kept_force;                ///< K' (u + b v) [N]
+    bool has_start = false;           ///< what follows
+    std::vector<double> start, rates; ///< the unknowns at the start of a step, and f^I there
 
     /** Of what the operator was assembled. */
     struct Origin

@@ -5,6 +5,7 @@
 #include <supple/mechanics/tangent.h>
 
 #include <string>
+#include <vector>
 
 namespace Supple
 {
@@ -19,6 +20,9 @@ namespace Supple
     esdirk3,
     esdirk4,
     esdirk5,
+    imex3,
+    imex4,
+    imex5,
     explicit2,
     explicit3,
     explicit4,
@@ -49,16 +53,21 @@ namespace Supple
     unsigned int n_steps          = 100;
     bool adaptive                 = false;
     double relative_tolerance     = 1e-3;
-    double displacement_tolerance = 0.; ///< [m]; 0: by the size of the body
-    double velocity_tolerance     = 0.; ///< [m/s]; 0: from that of the displacement
-    double longest_step           = 0.; ///< [s]; 0: any
-    unsigned int maximum_order    = 2;  ///< of IDA
+    double displacement_tolerance = 0.;  ///< [m]; 0: by the size of the body
+    double velocity_tolerance     = 0.;  ///< [m/s]; 0: from that of the displacement
+    double longest_step           = 0.;  ///< [s]; 0: any
+    unsigned int maximum_order    = 2;   ///< of IDA
+    double renewal_angle          = 20.; ///< of semi-implicit methods [degrees]
     Tangent tangent               = Tangent::automatic;
     double newton_tolerance       = 1e-8;
     unsigned int newton_limit     = 100;
     unsigned int n_retries        = 10;
     EnergyGuard energy_guard      = EnergyGuard::off;
     bool estimate_error           = false; ///< by a second run
+
+    // No entries, but what the rest of the scene asks of variable steps: to end there.
+    std::vector<double> instants; ///< at which a load or a motion jumps or bends [s], ascending
+    double stop_interval = 0.;    ///< at whose multiples something is written [s]; 0: nothing
 
     void
     declare(dealii::ParameterHandler &prm);
@@ -74,6 +83,10 @@ namespace Supple
     bool
     is_explicit() const;
 
+    /** Whether it splits the elastic force: each stage is one linear system. */
+    bool
+    is_semi_implicit() const;
+
     /** With which power of the step the error falls; of ida its maximum order. */
     unsigned int
     order() const;
@@ -85,6 +98,22 @@ namespace Supple
     double
     end() const;
 
+    /** Where a variable step that begins at a time has to end at the latest [s]. */
+    double
+    next_stop(double time) const;
+
+    /** Whether a load or a motion jumps or bends at a time. */
+    bool
+    is_instant(double time) const;
+
+    /** An instant too short for anything to happen in [s]. Forces of a step that begins or ends
+     * where they jump are those this far within it. */
+    double
+    moment() const
+    {
+      return 1e-10 * end();
+    }
+
     /** So short a time [s] that differences over it are derivatives, and so long that round-off is
      * small beside them. */
     double
@@ -93,6 +122,9 @@ namespace Supple
   private:
     void
     declare_tolerances(dealii::ParameterHandler &prm);
+
+    void
+    declare_renewal_angle(dealii::ParameterHandler &prm);
 
     void
     declare_newton(dealii::ParameterHandler &prm);

@@ -1,0 +1,131 @@
+#ifndef supple_aim_search_h
+#define supple_aim_search_h
+
+#include <supple/base/folder_lock.h>
+#include <supple/base/stopwatch.h>
+#include <supple/study/aim_curve.h>
+#include <supple/study/study_parameters.h>
+#include <supple/study/study_plan.h>
+#include <supple/study/study_quantities.h>
+#include <supple/study/study_runner.h>
+#include <supple/study/study_table.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace Supple
+{
+  /**
+   * The soonest run of a scene whose error in time is below an aim: method, and step or tolerance.
+   *
+   * First a reference is made so good that two runs of it, one with a tenth of the tolerance of the
+   * other, are apart by half the aim at most. Then each method is tried with the step or tolerance
+   * that what is known so far promises to meet the aim (AimCurve); a run that takes longer than
+   * the best one so far is stopped. An error counts with that of the reference on top.
+   *
+   * Into its folder it writes study.csv, study.md and report.html, as a Study.
+   */
+  class AimSearch
+  {
+  public:
+    /** @param quiet no words on the screen
+     * @throws InputError */
+    AimSearch(const StudyParameters &parameters,
+              const std::string &folder,
+              bool quiet,
+              MPI_Comm communicator);
+
+    /** Builds what a run of each method needs, and runs nothing. @throws InputError */
+    void
+    check() const;
+
+    /** @throws ComputationError if nothing meets the aim, or the reference can't tell;
+     * InterruptedError */
+    void
+    run();
+
+  private:
+    /** A method that may win. */
+    struct Candidate
+    {
+      StudyItem method;
+      bool variable_steps;
+      unsigned int order;
+      AimCurve curve;
+      std::vector<std::size_t> rows; ///< of the table, one for each run of the curve
+    };
+
+    std::vector<Candidate>
+    candidates() const;
+
+    /** Adds both kinds of steps of a method that the scene can have. */
+    void
+    add_candidates(std::vector<Candidate> &list, const StudyItem &method) const;
+
+    PlannedRun
+    planned(const Candidate &candidate, double x) const;
+
+    void
+    open_output() const;
+
+    /** Two runs of a method of high order, and how far they are apart. @throws ComputationError */
+    void
+    find_reference();
+
+    /** @throws ComputationError that the aim is below what can be told */
+    [[noreturn]] void
+    refuse_aim(double told) const;
+
+    /** All errors that the aim is about, the largest of them. */
+    double
+    error_of(const StudyRecord &run, const StudyRecord &right) const;
+
+    void
+    search(Candidate &candidate);
+
+    /** x of the first run. */
+    double
+    first_guess(const Candidate &candidate) const;
+
+    /** @return whether it may still win */
+    bool
+    try_run(Candidate &candidate, double x);
+
+    /** The candidate with the soonest run that meets the aim, or null. */
+    const Candidate *
+    winner() const;
+
+    /** Sentence, entries for the scene, errors and prices. */
+    std::vector<std::string>
+    result(const Candidate &best) const;
+
+    void
+    write() const;
+
+    void
+    say(const std::string &text) const;
+
+    const StudyParameters parameters;
+    const std::string folder;
+    std::unique_ptr<const FolderLock> mutable lock; ///< of the folder, on the first process
+    const MPI_Comm communicator;
+    const bool root;
+    const bool talks;
+    const StudyPlan plan;
+    const StudyQuantities quantities;
+    const StudyRunner runner;
+    const double aim; ///< relative
+    std::optional<StudyRecord> reference;
+    double reference_error   = 0.; ///< relative
+    double reference_seconds = 0.;
+    double best_seconds; ///< of a run that meets the aim, so far
+    std::vector<Candidate> list;
+    std::vector<std::string> space_errors; ///< of each row, in words
+    StudyTable table;
+    const Stopwatch stopwatch;
+  };
+} // namespace Supple
+
+#endif

@@ -1,0 +1,410 @@
+#include <supple/study/aim_search.h>
+
+#include <supple/base/error.h>
+#include <supple/base/files.h>
+#include <supple/base/interrupt.h>
+#include <supple/base/progress.h>
+#include <supple/base/text.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+
+namespace Supple
+{
+  namespace
+  {
+    /** From the one that most often wins on. */
+    const std::vector<std::string> all_methods =
+      {"imex5", "imex4", "imex3", "esdirk4", "trbdf2", "explicit4", "esdirk5", "backward euler"};
+
+    /** Of the reference: another method than those that win. */
+    const std::string reference_method = "esdirk5";
+
+    /** What the two runs of the reference may be apart, over the aim. */
+    constexpr double largest_distance = 0.5;
+
+    /** Below, round-off and the tolerances of linear solvers count. */
+    constexpr double smallest_tolerance = 1e-9;
+
+    /** A run that takes this many times as long as the best one is stopped; one that is expected to
+     * is not begun. */
+    constexpr double patience = 1.3;
+
+    /** What the search may take, over the run time of the best run; or some seconds, for where runs
+     * take milliseconds it is their set-up that counts. */
+    constexpr double longest_search = 8., shortest_search = 3.;
+
+    constexpr double nothing  = std::numeric_limits<double>::quiet_NaN();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+  } // namespace
+
+
+  AimSearch::AimSearch(const StudyParameters &study,
+                       const std::string &folder,
+                       const bool quiet,
+                       const MPI_Comm communicator)
+    : parameters(study)
+    , folder(folder)
+    , communicator(communicator)
+    , root(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+    , talks(!quiet && root)
+    , plan(parameters)
+    , quantities(parameters, plan)
+    , runner(quantities.needed(), communicator)
+    , aim(parameters.relative_aim())
+    , best_seconds(infinity)
+    , list(candidates())
+  {
+    table.kind        = plan.kind;
+    table.name        = parameters.name;
+    table.error_names = quantities.error_names();
+    table.targets     = {aim};
+    table.facts       = {parameters.scene_in_words(),
+                         "Aim: " + percent(aim) + ". Error: " + quantities.error_meaning() + "."};
+  }
+
+
+  void
+  AimSearch::say(const std::string &text) const
+  {
+    if (talks)
+      std::cout << text << std::endl;
+  }
+
+
+  std::vector<AimSearch::Candidate>
+  AimSearch::candidates() const
+  {
+    std::vector<StudyItem> methods = plan.methods;
+    if (methods.empty())
+      for (const std::string &name : all_methods)
+        methods.push_back({name, name, {}, ""});
+    std::vector<Candidate> found;
+    for (const StudyItem &method : methods)
+      add_candidates(found, method);
+    // variable steps first: they find their length by themselves, and that of fixed ones
+    std::stable_partition(found.begin(), found.end(), [](const Candidate &candidate) {
+      return candidate.variable_steps;
+    });
+    return found;
+  }
+
+
+  void
+  AimSearch::add_candidates(std::vector<Candidate> &found, const StudyItem &method) const
+  {
+    for (const bool variable_steps : {true, false})
+      {
+        Candidate candidate{method, variable_steps, 1, AimCurve(1, variable_steps), {}};
+        try
+          {
+            const double x       = variable_steps ? 1e-3 : plan.base.time.end() / 100.;
+            const Parameters run = plan.parameters(planned(candidate, x));
+            candidate.order      = run.time.order();
+          }
+        catch (const InputError &)
+          {
+            if (!plan.methods.empty() && found.empty() && !variable_steps)
+              throw; // of the methods that were asked for this one can't be had at all
+            continue;
+          }
+        candidate.curve = AimCurve(candidate.order, variable_steps);
+        found.push_back(candidate);
+      }
+  }
+
+
+  PlannedRun
+  AimSearch::planned(const Candidate &candidate, const double x) const
+  {
+    const std::string place = parameters.place("Aim");
+    if (candidate.variable_steps)
+      return plan.method_run(candidate.method, "tolerance", digits(x, 3), place);
+    const double end = plan.base.time.end();
+    const long n     = std::max(1l, std::lround(std::ceil(end / x * (1. - 1e-9))));
+    return plan.method_run(candidate.method,
+                           "step",
+                           digits(end, all_digits) + "/" + std::to_string(n),
+                           place);
+  }
+
+
+  void
+  AimSearch::check() const
+  {
+    say("Aim " + percent(aim) + " of scene " + plan.base.scene_name + ": " +
+        std::to_string(list.size()) + " methods, and a reference");
+    runner.check(plan.base);
+    for (const Candidate &candidate : list)
+      say("  " + candidate.method.title +
+          (candidate.variable_steps ? ", variable steps" : ", fixed steps"));
+  }
+
+
+  void
+  AimSearch::open_output() const
+  {
+    prepare_output_folder(folder, communicator, [&] {
+      namespace fs = std::filesystem;
+      fs::create_directories(folder);
+      lock = std::make_unique<const FolderLock>(folder);
+      for (const char *name : {"study.csv", "study.md", "report.html"})
+        fs::remove(fs::path(folder) / name);
+      write_whole_file(folder + "/study.csv", table.csv());
+    });
+  }
+
+
+  void
+  AimSearch::run()
+  {
+    const InterruptGuard interrupt;
+    runner.check(plan.base); // what is refused leaves an earlier study as it is
+    open_output();
+    say("Supple " SUPPLE_VERSION ", the soonest run of " + plan.base.scene_name +
+        " with an error of " + percent(aim));
+    find_reference();
+    const double reference_end = stopwatch.seconds();
+    for (Candidate &candidate : list)
+      {
+        if (stopwatch.seconds() - reference_end >
+            std::max(shortest_search, longest_search * best_seconds))
+          {
+            table.facts.push_back(
+              "Not tried, for the search had taken " + digits(longest_search, 2) +
+              " times the run time of the best run: " + candidate.method.title +
+              (candidate.variable_steps ? ", variable steps" : ", fixed steps") + ".");
+            continue;
+          }
+        search(candidate);
+        if (interrupt.requested(communicator))
+          throw InterruptedError("Interrupted; the runs so far are in " + folder + "/study.csv.");
+      }
+    const Candidate *const best = winner();
+    if (!best)
+      {
+        write();
+        throw ComputationError("No run meets the aim of " + percent(aim) +
+                               ". What was tried is in " + folder + "/study.md.");
+      }
+    std::vector<std::string> sentences = result(*best);
+    sentences.push_back("The search took " + readable_duration(stopwatch.seconds()) +
+                        ", of which the reference " + readable_duration(reference_end) + ".");
+    table.facts.insert(table.facts.end(), sentences.begin(), sentences.end());
+    write();
+    for (const std::string &sentence : sentences)
+      say(sentence);
+  }
+
+
+  void
+  AimSearch::refuse_aim(const double told) const
+  {
+    throw ComputationError(parameters.place("Aim") + " = " + percent(aim) +
+                           ": no run can tell errors that small here: two of the reference are " +
+                           percent(told) + " apart. An aim of " + percent(2.1 * told) +
+                           " can be told.");
+  }
+
+
+  void
+  AimSearch::find_reference()
+  {
+    const Candidate method{
+      {reference_method, reference_method, {}, ""}, true, 5, AimCurve(5, true), {}};
+    std::optional<StudyRecord> coarse;
+    double distance  = nothing;
+    double tolerance = std::min(1e-3, 0.1 * aim);
+    for (; tolerance > smallest_tolerance; tolerance *= 0.1)
+      {
+        const PlannedRun run     = planned(method, tolerance);
+        const StudyRecord record = runner.record(plan.parameters(run), "");
+        if (record.status != StudyRecord::Status::done)
+          throw ComputationError("The reference (" + run.label() + ") failed: " + record.reason);
+        reference_seconds += record.seconds;
+        if (coarse)
+          distance = error_of(*coarse, record);
+        say("  reference: " + run.label() + ", " + digits(record.seconds, 3) + " s" +
+            (coarse ? "; the one before is " + percent(distance) + " from it" : ""));
+        coarse = record;
+        if (distance <= largest_distance * aim)
+          break;
+        // of a distance that is far off a tenth of the tolerance would not be enough
+        if (distance > 50. * aim)
+          tolerance *= 0.1;
+      }
+    if (!(distance <= largest_distance * aim))
+      refuse_aim(distance);
+    reference = coarse;
+    // ten times the tolerance is 10^(p / (p + 1)) times the error
+    reference_error       = distance / (std::pow(10., 5. / 6.) - 1.);
+    table.reference_error = reference_error;
+    table.facts.push_back("Reference: " + planned(method, tolerance).label() +
+                          "; its own error is about " + percent(reference_error) +
+                          ", by its distance from the one with ten times the tolerance.");
+  }
+
+
+  double
+  AimSearch::error_of(const StudyRecord &run, const StudyRecord &right) const
+  {
+    double largest = 0.;
+    for (const double error : quantities.errors(run, &right))
+      {
+        if (!std::isfinite(error))
+          return nothing;
+        largest = std::max(largest, error);
+      }
+    return largest;
+  }
+
+
+  double
+  AimSearch::first_guess(const Candidate &candidate) const
+  {
+    // from the nearest order that is known
+    const Candidate *known = nullptr;
+    for (const Candidate &other : list)
+      if (other.curve.best(aim) && (candidate.variable_steps == other.variable_steps || !known ||
+                                    other.method.name == candidate.method.name))
+        known = &other;
+    if (candidate.variable_steps)
+      return known && known->variable_steps
+               ? known->curve.best(aim)->x * (known->order == candidate.order ? 1. : 0.5)
+               : std::min(0.1, aim);
+    const double end = plan.base.time.end();
+    if (!known)
+      return std::min(plan.base.time.step, end / 20.);
+    std::size_t row = known->rows.front();
+    for (std::size_t k = 0; k < known->curve.all().size(); ++k)
+      if (&known->curve.all()[k] == known->curve.best(aim))
+        row = known->rows[k];
+    // of variable steps the shortest ones count
+    return 0.7 * end / table.rows[row].steps *
+           std::pow(aim, 1. / candidate.order - 1. / known->order);
+  }
+
+
+  void
+  AimSearch::search(Candidate &candidate)
+  {
+    std::optional<double> x = first_guess(candidate);
+    while (x && try_run(candidate, *x))
+      x = candidate.curve.next(aim - reference_error);
+  }
+
+
+  bool
+  AimSearch::try_run(Candidate &candidate, const double x)
+  {
+    StudyRow row;
+    row.run = planned(candidate, x);
+    Parameters scene;
+    try
+      {
+        scene = plan.parameters(row.run);
+      }
+    catch (const InputError &)
+      {
+        return false;
+      }
+    scene.output.report = false;
+    scene.checkpoint    = {};
+    StudyRecord record;
+    try
+      {
+        record = runner.record(scene, "", patience * best_seconds);
+      }
+    catch (const InputError &error) // such as an explicit step that is not stable
+      {
+        record.status = StudyRecord::Status::refused;
+        record.reason = error.what();
+      }
+    const bool done = record.status == StudyRecord::Status::done;
+    row.status      = record.status;
+    row.reason      = record.reason;
+    row.steps       = record.steps;
+    row.rejected    = record.rejected;
+    row.failed      = record.failed;
+    row.seconds     = record.seconds;
+    row.n_cells     = record.n_cells;
+    row.warnings    = record.warnings;
+    row.size        = record.steps > 0 ? record.end / record.steps : 0.;
+    if (done)
+      row.errors = quantities.errors(record, &*reference);
+    const double error = done ? error_of(record, *reference) : nothing;
+    candidate.curve.add({x, error, record.seconds});
+    candidate.rows.push_back(table.rows.size());
+    table.add(row);
+    space_errors.push_back(record.space_error);
+    say(table.line(table.rows.back()));
+    write();
+
+    if (error + reference_error <= aim)
+      best_seconds = std::min(best_seconds, record.seconds);
+    if (record.stopped)
+      return false;
+    const double expected = candidate.curve.expected_seconds(aim);
+    return !(expected > patience * best_seconds);
+  }
+
+
+  const AimSearch::Candidate *
+  AimSearch::winner() const
+  {
+    const Candidate *best = nullptr;
+    const auto seconds    = [&](const Candidate &candidate) {
+      return candidate.curve.best(aim - reference_error)->seconds;
+    };
+    for (const Candidate &candidate : list)
+      if (candidate.curve.best(aim - reference_error) &&
+          (!best || seconds(candidate) < seconds(*best)))
+        best = &candidate;
+    return best;
+  }
+
+
+  std::vector<std::string>
+  AimSearch::result(const Candidate &best) const
+  {
+    const AimCurve::Trial &trial = *best.curve.best(aim - reference_error);
+    const std::size_t number     = &trial - best.curve.all().data();
+    const StudyRow &row          = table.rows[best.rows[number]];
+    std::vector<std::string> sentences;
+    sentences.push_back(percent(aim) + " soonest: " + row.run.label() + ", " +
+                        digits(trial.seconds, 3) + " s, " + std::to_string(row.steps) + " steps.");
+    sentences.push_back("Error in time " + percent(trial.error) + ", known to within " +
+                        percent(reference_error) + " (of " + quantities.error_meaning() + ").");
+    const std::string &space = space_errors[best.rows[number]];
+    sentences.push_back(space.empty()
+                          ? "The error in space is not part of the aim, and is not "
+                            "known here (Space/Estimate error)."
+                          : "The error in space is not part of the aim: " + space + ".");
+    sentences.push_back("Half the error takes about " + digits(best.curve.price_of_half(), 3) +
+                        " times as long.");
+    std::string entries;
+    for (const Override &override : row.run.overrides)
+      entries +=
+        (entries.empty() ? "" : " | ") + (override.entry() == "Time/Relative tolerance"
+                                            ? override.entry() + "=" + digits(row.run.tolerance, 3)
+                                            : override.text);
+    sentences.push_back("Entries for the scene: " + entries);
+    return sentences;
+  }
+
+
+  void
+  AimSearch::write() const
+  {
+    if (!root)
+      return;
+    write_whole_file(folder + "/study.csv", table.csv());
+    write_whole_file(folder + "/study.md", table.markdown());
+    write_report(folder, table);
+  }
+} // namespace Supple
