@@ -98,9 +98,10 @@ namespace Supple
 
 
   StudyPlan::StudyPlan(const StudyParameters &study)
-    : kind(!study.aim.empty() || !study.methods.empty() ? Kind::methods // on one level or on several
-           : !study.levels.empty()                      ? Kind::levels
-                                                        : Kind::cases)
+    : kind(!study.aim.empty() || !study.methods.empty()
+             ? Kind::methods // on one level or on several
+           : !study.levels.empty() ? Kind::levels
+                                   : Kind::cases)
     , base(study.read_scene())
     , task(study)
   {

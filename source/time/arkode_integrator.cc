@@ -115,7 +115,11 @@ namespace Supple
     if (adaptive)
       set_end(end);
     ARKStepGetNumNonlinSolvIters(memory, &newton_iterations);
-    started = true;
+    long inaccurate, failed; // of the past that was repeated
+    ARKStepGetNumErrTestFails(memory, &inaccurate);
+    ARKStepGetNumStepSolveFails(memory, &failed);
+    rejections = inaccurate + failed;
+    started    = true;
   }
 
 
@@ -489,7 +493,8 @@ namespace Supple
     long inaccurate, failed;
     ARKStepGetNumErrTestFails(memory, &inaccurate);
     ARKStepGetNumStepSolveFails(memory, &failed);
-    was_rejected                = inaccurate + failed != long(model.effort.rejected_steps);
+    was_rejected                = inaccurate + failed != rejections;
+    rejections                  = inaccurate + failed;
     model.effort.rejected_steps = inaccurate + failed;
     model.effort.failed_steps   = failed;
   }

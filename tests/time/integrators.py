@@ -89,8 +89,9 @@ def convergence():
             order = math.log2(errors[0] / errors[1])
             print(f"{rotation}, {name}: errors {errors[0]:.1e}, {errors[1]:.1e} m, order {order:.2f}")
             if errors[0] > 1e-10: # the reference has errors, too
-                # of semi-implicit methods semi_implicit.py tests shorter steps
-            runner.check(order > ORDERS[name] - (0.7 if "imex" in name else 0.3), f"{rotation}, {name}: order {order}, errors {errors}")
+                # Loads of time are in the explicit part of semi-implicit methods: waves show more. semi_implicit.py tests orders.
+                slack = 1. if "imex" in name else 0.3
+                runner.check(order > ORDERS[name] - slack, f"{rotation}, {name}: order {order}, errors {errors}")
             runner.check(errors[0] < 0.1, f"{rotation}, {name}: error {errors[0]}")
 
 

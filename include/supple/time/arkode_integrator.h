@@ -183,6 +183,7 @@ namespace Supple
     const bool split;                  ///< the method is semi-implicit, and there is a rest
     double diagonal   = 0.;            ///< gamma over the step, of a semi-implicit method
     bool was_rejected = false;         ///< the last step, or a try of it
+    long rejections   = 0;             ///< that ARKode has counted
     const bool remembers;              ///< more than the configuration from step to step
     bool linear = false;               ///< each stage is one linear system
     std::vector<double> error_weights; ///< of the stages of a fixed step, see add_stage()
