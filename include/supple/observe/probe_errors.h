@@ -66,10 +66,12 @@ namespace Supple
     std::vector<ProbeError>
     find(const Probes &probes, const PointForces &points, const std::string &only = "");
 
-    /** Of the work of the loads, f . u, whose dual is the body's answer to the loads themselves: of
-     * nonlinear bodies this is what the energy alone does not tell, as near to buckling.
-     * Collective.
-     * @throws ComputationError @param loads f [N] */
+    /**
+     * Of the work of the loads, f . u, whose dual is the body's answer to the loads themselves: of
+     * nonlinear bodies this is what the energy alone does not tell, as near to buckling. Collective.
+     * @param loads f [N]
+     * @throws ComputationError
+     */
     ProbeError
     find_of_work(const Vector &loads);
 
