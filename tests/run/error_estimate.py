@@ -65,7 +65,7 @@ runner.check(doubling["at_least"] and doubling["order"] < 0.7 and 0.5 * true_err
 # Steps that are longer than the swings take the whole motion at once, and so do half the steps: the energy tells it.
 LONG = {"Mesh/Box size": "1, 4, 1", "Mesh/Box cubes": "2, 8, 2", "Material/Young modulus": 1e9, "Constraints/Clamped boundaries": 3,
         "Start/Velocity": "0; 0; 0", "Probes/Points": "tip: 0, 0, 0", "Output/Frames": "none", "Output/Report": "false", "Time/Steps": 10}
-for method, step in [("backward euler", 1), ("backward euler", 100), ("trbdf2", 10), ("esdirk3", 10), ("esdirk5", 10)]:
+for method, step in [("backward euler", 1), ("esdirk3", 10)]:
     for doubled in ("true", "false"):
         folder = tempfile.mkdtemp(prefix="supple-")
         settings = {**LONG, "Time/Method": method, "Time/Step": step, "Time/Estimate error": doubled}
