@@ -132,8 +132,9 @@ namespace Supple
     double
     jump_between(const Course &value, double from, double to)
     {
+      const double accuracy = 1e-13 * to;
       double low = value(from), high = value(to);
-      while (to - from > 1e-13 * to)
+      while (to - from > accuracy)
         {
           const double middle = 0.5 * (from + to), between = value(middle);
           if (std::abs(between - low) > std::abs(high - between))
