@@ -32,7 +32,7 @@ namespace Supple
           default:
             return {{"Mesh/Cylinder sectors", {mesh.sectors}},
                     {"Mesh/Cylinder layers", {mesh.layers}},
-                    {"Mesh/Cylinder rings less one", {mesh.rings - 1}}};
+                    {"Mesh/Cylinder rings", {mesh.rings - 1}}};
         }
     }
 
@@ -94,7 +94,8 @@ namespace Supple
       if (std::any_of(count.numbers.begin(), count.numbers.end(), [](const unsigned int n) {
             return n % 2 == 1;
           }))
-        return count.entry + " must be even";
+        return count.entry +
+               (count.entry == "Mesh/Cylinder rings" ? " must be odd" : " must be even");
     if (would_mix_materials(mesh))
       return "each layer of Mesh/Layers must have an even number of rows";
     if (mesh.shape == Shape::hollow_cylinder && (mesh.sectors < 6 || coarser(mesh).walls_cross()))

@@ -299,8 +299,8 @@ namespace Supple
     const std::string place_of_reference = study.place("Reference level");
     const auto items                     = study_items(study.reference_level, place_of_reference);
     if (items.size() != 1)
-      throw InputError(place_of_reference + ": it must be one mesh, such as fine [Mesh/Box " +
-                       "cubes=16, 64, 16].");
+      throw InputError(place_of_reference +
+                       ": it must be one mesh, such as fine [Mesh/Box cubes=16, 64, 16].");
     for (PlannedRun &run : references)
       run = on_level(items[0], run);
   }

@@ -68,7 +68,8 @@ namespace Supple
 
     /**
      * Of the work of the loads, f . u, whose dual is the body's answer to the loads themselves: of
-     * nonlinear bodies this is what the energy alone does not tell, as near to buckling. Collective.
+     * nonlinear bodies this is what the energy alone does not tell, as near to buckling.
+     * Collective.
      * @param loads f [N]
      * @throws ComputationError
      */
