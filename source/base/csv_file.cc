@@ -3,6 +3,8 @@
 #include <supple/base/error.h>
 #include <supple/base/files.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
@@ -11,16 +13,6 @@ namespace Supple
 {
   namespace
   {
-    std::string
-    header(const std::vector<std::string> &column_names)
-    {
-      std::string line;
-      for (const std::string &name : column_names)
-        line += (line.empty() ? "" : ",") + name;
-      return line;
-    }
-
-
     /** A table after its last row of a step; the header alone if there is no such table. */
     std::string
     up_to_step(const std::string &file, const std::string &header, const unsigned int step)
@@ -40,7 +32,7 @@ namespace Supple
     : file(file)
     , stream(file)
   {
-    stream << header(column_names) << std::endl;
+    stream << boost::algorithm::join(column_names, ",") << std::endl;
     if (!stream)
       throw WriteError(file + " can't be written.");
   }
@@ -51,7 +43,7 @@ namespace Supple
                    const unsigned int step)
     : file(file)
   {
-    write_whole_file(file, up_to_step(file, header(column_names), step));
+    write_whole_file(file, up_to_step(file, boost::algorithm::join(column_names, ","), step));
     stream.open(file, std::ios::app);
     if (!stream)
       throw WriteError(file + " can't be written.");

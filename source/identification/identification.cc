@@ -8,8 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <iostream>
 
 namespace Supple
 {
@@ -20,10 +18,7 @@ namespace Supple
                                  const bool quiet,
                                  const MPI_Comm communicator)
     : parameters(parameters)
-    , folder(folder)
-    , communicator(communicator)
-    , root(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-    , talks(!quiet && root)
+    , output(folder, quiet, communicator)
     , sets(parameters.measured)
     , model(this->parameters, communicator)
   {
@@ -44,40 +39,13 @@ namespace Supple
 
 
   void
-  Identification::say(const std::string &text) const
-  {
-    if (talks)
-      std::cout << text << std::endl;
-  }
-
-
-  void
   Identification::check() const
   {
     for (const double thickness : parameters.thicknesses)
       model.check({thickness * table.unit_length, parameters.ratios.front()}, sets);
-    say("Identification " + parameters.name + " by scene " + model.base.scene_name + ": " +
-        std::to_string(parameters.thicknesses.size() * parameters.ratios.size()) + " pairs, " +
-        std::to_string(sets.size()) + " measured sets; right");
-  }
-
-
-  void
-  Identification::open_output()
-  {
-    prepare_output_folder(folder, communicator, [&] {
-      namespace fs = std::filesystem;
-      fs::create_directories(folder);
-      lock = std::make_unique<const FolderLock>(folder);
-      for (const char *name : {"identification", "profiles", "fits"})
-        for (const char *ending : {".csv", ".md", ".gp", ".svg", ".png"})
-          fs::remove(fs::path(folder) / (std::string(name) + ending));
-      fs::remove(fs::path(folder) / "report.html");
-      for (const auto &entry : fs::directory_iterator(folder))
-        if (entry.path().filename().string().rfind("errors_", 0) == 0)
-          fs::remove(entry.path());
-      write_whole_file(folder + "/identification.csv", table.csv());
-    });
+    output.say("Identification " + parameters.name + " by scene " + model.base.scene_name + ": " +
+               std::to_string(parameters.thicknesses.size() * parameters.ratios.size()) +
+               " pairs, " + std::to_string(sets.size()) + " measured sets; right");
   }
 
 
@@ -88,10 +56,15 @@ namespace Supple
     const Stopwatch stopwatch;
     for (const double thickness : parameters.thicknesses)
       model.check({thickness * table.unit_length, parameters.ratios.front()}, sets);
-    open_output();
-    say("Supple " SUPPLE_VERSION ", identification " + parameters.name + ": " +
-        std::to_string(parameters.thicknesses.size() * parameters.ratios.size()) +
-        " pairs by scene " + model.base.scene_name);
+    std::vector<std::string> earlier = {"report.html", "errors_*"};
+    for (const char *name : {"identification", "profiles", "fits"})
+      for (const char *ending : {".csv", ".md", ".gp", ".svg", ".png"})
+        earlier.push_back(std::string(name) + ending);
+    output.open(earlier,
+                [this] { write_whole_file(output.folder + "/identification.csv", table.csv()); });
+    output.say("Supple " SUPPLE_VERSION ", identification " + parameters.name + ": " +
+               std::to_string(parameters.thicknesses.size() * parameters.ratios.size()) +
+               " pairs by scene " + model.base.scene_name);
     try
       {
         search_grid();
@@ -109,8 +82,9 @@ namespace Supple
       }
     write();
     for (const std::string &sentence : table.sentences())
-      say("  " + sentence);
-    say("done in " + readable_duration(stopwatch.seconds()) + ": " + folder + "/identification.md");
+      output.say("  " + sentence);
+    output.say("done in " + readable_duration(stopwatch.seconds()) + ": " + output.folder +
+               "/identification.md");
   }
 
 
@@ -118,9 +92,9 @@ namespace Supple
   Identification::errors_of(const LayerPair &pair, std::vector<double> &starts) const
   {
     const InterruptGuard interrupt;
-    if (interrupt.requested(communicator))
+    if (interrupt.requested(output.communicator))
       throw InterruptedError("Interrupted after " + std::to_string(table.pairs.size()) +
-                             " pairs of the grid; what they gave is in " + folder + ".");
+                             " pairs of the grid; what they gave is in " + output.folder + ".");
     const SurfaceComparison &comparison = parameters.comparison;
     const SurfaceResponse surface       = model.surface(pair);
     PairErrors result{pair, {}, {}};
@@ -215,16 +189,14 @@ namespace Supple
   void
   Identification::write() const
   {
-    if (!root)
+    if (!output.root)
       return;
-    write_whole_file(folder + "/identification.csv", table.csv());
-    write_whole_file(folder + "/identification.md", table.markdown());
-    write_whole_file(folder + "/profiles.csv", table.profiles_csv());
+    write_whole_file(output.folder + "/identification.csv", table.csv());
+    write_whole_file(output.folder + "/identification.md", table.markdown());
+    write_whole_file(output.folder + "/profiles.csv", table.profiles_csv());
     if (!table.fits.empty())
-      write_whole_file(folder + "/fits.csv", table.fits_csv());
-    write_report(folder, table);
-    const std::string problem = plot_identification(table, folder);
-    if (!problem.empty())
-      say(problem);
+      write_whole_file(output.folder + "/fits.csv", table.fits_csv());
+    write_report(output.folder, table);
+    output.say(plot_identification(table, output.folder));
   }
 } // namespace Supple

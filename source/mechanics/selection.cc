@@ -37,22 +37,27 @@ namespace Supple
   } // namespace
 
 
+  std::string
+  after_word(const std::string &text, const std::string &word)
+  {
+    return text.rfind(word, 0) == 0 ? text.substr(word.size()) : "";
+  }
+
+
   std::vector<bool>
   Selection::selected_nodes(const std::string &text, const std::string &origin) const
   {
-    const auto argument = [&](const std::string &keyword) {
-      return text.rfind(keyword + " ", 0) == 0 ? text.substr(keyword.size() + 1) : "";
-    };
     std::vector<bool> nodes(body.n_local, text == "all");
     if (text == "all")
       return nodes;
 
-    if (!argument("region").empty())
-      return region_nodes(argument("region"), origin);
+    if (!after_word(text, "region ").empty())
+      return region_nodes(after_word(text, "region "), origin);
 
-    if (!argument("boundary").empty())
+    if (!after_word(text, "boundary ").empty())
       {
-        for (const std::string &boundary : Utilities::split_string_list(argument("boundary"), ','))
+        for (const std::string &boundary :
+             Utilities::split_string_list(after_word(text, "boundary "), ','))
           {
             const auto more = boundary_nodes(boundary, origin);
             std::transform(
@@ -61,8 +66,8 @@ namespace Supple
         return nodes;
       }
 
-    auto index       = numbers_in(argument("vertex"));
-    const auto point = numbers_in(argument("nearest to"));
+    auto index       = numbers_in(after_word(text, vertex_word));
+    const auto point = numbers_in(after_word(text, point_word));
     if (point.size() == 3)
       index = {double(vertex_of_body({point[0], point[1], point[2]}, origin))};
     if (index.size() != 1)

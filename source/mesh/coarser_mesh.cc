@@ -15,6 +15,7 @@ namespace Supple
     {
       std::string entry;
       std::vector<unsigned int> numbers;
+      std::string right = "even"; ///< what the entry must be for that
     };
 
 
@@ -32,7 +33,7 @@ namespace Supple
           default:
             return {{"Mesh/Cylinder sectors", {mesh.sectors}},
                     {"Mesh/Cylinder layers", {mesh.layers}},
-                    {"Mesh/Cylinder rings", {mesh.rings - 1}}};
+                    {"Mesh/Cylinder rings", {mesh.rings - 1}, "odd"}};
         }
     }
 
@@ -94,8 +95,7 @@ namespace Supple
       if (std::any_of(count.numbers.begin(), count.numbers.end(), [](const unsigned int n) {
             return n % 2 == 1;
           }))
-        return count.entry +
-               (count.entry == "Mesh/Cylinder rings" ? " must be odd" : " must be even");
+        return count.entry + " must be " + count.right;
     if (would_mix_materials(mesh))
       return "each layer of Mesh/Layers must have an even number of rows";
     if (mesh.shape == Shape::hollow_cylinder && (mesh.sectors < 6 || coarser(mesh).walls_cross()))

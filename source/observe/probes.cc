@@ -51,9 +51,9 @@ namespace Supple
     const std::string origin = scene.origin(motion_section(motion) + "/Of");
     const std::string name   = "motion" + (motion == 0 ? "" : std::to_string(motion + 1));
     const std::string text   = Utilities::trim(of);
-    const std::string point  = text.rfind("nearest to ", 0) == 0 ? text.substr(11) : "";
+    const std::string point  = after_word(text, point_word);
     const auto nodes         = Selection(body).selected_nodes(text, origin);
-    if (!point.empty() || text.rfind("vertex ", 0) == 0)
+    if (!point.empty() || !after_word(text, vertex_word).empty())
       add_point(name, point.empty() ? text : point, origin);
     else
       add_nodes(name, text, nodes);
@@ -63,11 +63,11 @@ namespace Supple
   void
   Probes::add_point(const std::string &name, const std::string &text, const std::string &origin)
   {
-    if (text.rfind("vertex ", 0) == 0)
+    if (const std::string index = after_word(text, vertex_word); !index.empty())
       {
         add(name,
             Selection(body).selected_nodes(text, origin),
-            Selection(body).vertex_in_words(Utilities::string_to_int(text.substr(7))));
+            Selection(body).vertex_in_words(Utilities::string_to_int(index)));
         return;
       }
     Point<3> point;

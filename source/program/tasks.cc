@@ -79,7 +79,8 @@ namespace Supple
       const Parameters scene = read_scene(line.scene, line.overrides);
       if (line.action == CommandLine::Action::run)
         {
-          require_folder(line.output.empty() ? scene.output_folder() : line.output, communicator);
+          if (asks_for_pilots(scene))
+            require_folder(line.output.empty() ? scene.output_folder() : line.output, communicator);
           return adapted(scene, !line.quiet, communicator);
         }
       check_adaptation(scene, communicator);

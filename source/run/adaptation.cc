@@ -5,6 +5,7 @@
 #include <supple/base/progress.h>
 #include <supple/base/stopwatch.h>
 #include <supple/base/text.h>
+#include <supple/run/error_words.h>
 #include <supple/run/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -20,27 +21,12 @@ namespace Supple
     using Pilot = RefinementParameters::Pilot;
 
 
-    bool
-    asks_for_pilots(const Parameters &scene)
-    {
-      return !scene.mesh.refinement.by.empty() || scene.space.aim > 0.;
-    }
-
-
-    /** The scene without what a pilot run does not need. */
-    Parameters
-    pilot_scene(const Parameters &scene)
-    {
-      return Companion::scene(scene);
-    }
-
-
     /** Runs a scene, which from then on keeps the vertices that its points have chosen. */
     Pilot
     run_pilot(Parameters &scene, const std::string &quantity, const MPI_Comm communicator)
     {
       const Stopwatch stopwatch;
-      Simulation simulation(pilot_scene(scene), "", true, communicator);
+      Simulation simulation(Companion::scene(scene), "", true, communicator);
       const std::unique_ptr<CellIndicators> indicators = simulation.make_indicators(quantity);
       simulation.run(indicators.get());
       scene = simulation.with_chosen_vertices(scene);
@@ -58,11 +44,8 @@ namespace Supple
     std::string
     error_in_words(const Pilot &pilot)
     {
-      if (!std::isfinite(pilot.error))
-        return "refined by " + pilot.of;
-      if (pilot.error > largest_told_error)
-        return "in space more than " + digits(100. * largest_told_error, 2) + " % of " + pilot.of;
-      return "in space about " + digits(100. * pilot.error, 2) + " % of " + pilot.of;
+      return std::isfinite(pilot.error) ? "in space " + part_of(pilot.error, false, pilot.of)
+                                        : "refined by " + pilot.of;
     }
 
 
@@ -86,6 +69,13 @@ namespace Supple
                          "(Mesh/Refine).");
     }
   } // namespace
+
+
+  bool
+  asks_for_pilots(const Parameters &scene)
+  {
+    return !scene.mesh.refinement.by.empty() || scene.space.aim > 0.;
+  }
 
 
   Parameters
@@ -148,7 +138,7 @@ namespace Supple
   check_adaptation(const Parameters &scene, const MPI_Comm communicator)
   {
     if (asks_for_pilots(scene))
-      Simulation(pilot_scene(scene), "", true, communicator)
+      Simulation(Companion::scene(scene), "", true, communicator)
         .make_indicators(scene.mesh.refinement.quantity());
   }
 } // namespace Supple

@@ -102,15 +102,9 @@ namespace Supple
   void
   CellIndicators::look(const bool last)
   {
-    if (!space_error)
-      {
-        space_error = std::make_unique<SpaceError>(problem.configuration, problem.forces.elastic());
-        points      = std::make_unique<PointForces>(problem.body,
-                                               problem.constraints,
-                                               problem.parameters.loads,
-                                               problem.parameters.file);
-      }
-    const EnergyError error = space_error->estimate();
+    if (!tools)
+      tools = std::make_unique<SpaceErrorTools>(problem);
+    const EnergyError error = tools->energy.estimate();
     if (error.is_unknown_by_locking())
       throw ComputationError(
         "the cells lock, so that their error is not known; "
@@ -125,7 +119,7 @@ namespace Supple
       return look_at_probe();
     if (last && problem.stationary)
       look_at_energy(error);
-    const std::vector<double> &squares = space_error->of_body_cells();
+    const std::vector<double> &squares = tools->energy.of_body_cells();
     for (std::size_t c = 0; c < squares.size(); ++c)
       indicators[c] = std::max(indicators[c], squares[c]);
   }
@@ -137,18 +131,12 @@ namespace Supple
     Vector loads;
     problem.body.initialize(loads);
     problem.forces.set_loads(loads, problem.configuration, 1.);
-    if (points->matter(integrator.reactions(), loads))
+    if (tools->points.matter(integrator.reactions(), loads))
       return;
     relative_error = error.of_work();
     if (!problem.forces.change_operator() || loads.l2_norm() == 0.)
       return;
-    ProbeErrors duals(*space_error,
-                      problem.configuration,
-                      problem.forces,
-                      problem.implicit_operator,
-                      *problem.solver,
-                      problem.effort);
-    relative_error = std::abs(duals.find_of_work(loads).relative());
+    relative_error = std::abs(tools->duals().find_of_work(loads).relative());
   }
 
 
@@ -156,20 +144,15 @@ namespace Supple
   CellIndicators::look_at_probe()
   {
     const Parameters &scene = problem.parameters;
-    ProbeErrors duals(*space_error,
-                      problem.configuration,
-                      problem.forces,
-                      problem.implicit_operator,
-                      *problem.solver,
-                      problem.effort);
+    ProbeErrors duals       = tools->duals();
     if (quantity.empty())
       {
-        const std::vector<ProbeError> all = duals.find(probes, *points);
+        const std::vector<ProbeError> all = duals.find(probes, tools->points);
         quantity                          = all.empty() ? energy : all.front().name;
         if (all.empty())
           return look(true);
       }
-    const std::vector<ProbeError> found = duals.find(probes, *points, quantity);
+    const std::vector<ProbeError> found = duals.find(probes, tools->points, quantity);
     if (found.empty())
       throw InputError(
         scene.origin(scene.mesh.refinement.by.empty() ? "Space/Aim" : "Mesh/Refine") + ": " +

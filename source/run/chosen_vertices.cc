@@ -24,7 +24,7 @@ namespace Supple
     Parameters result = scene;
     const Selection selection(body);
     change_selections(result, [&](std::string &text, const std::string &origin) {
-      if (text.rfind("nearest to ", 0) != 0)
+      if (after_word(text, point_word).empty())
         return;
       const std::vector<bool> nodes = selection.selected_nodes(text, origin);
       unsigned int vertex           = numbers::invalid_unsigned_int;

@@ -318,7 +318,7 @@ namespace Supple
     {
       if (second.observed())
         return second.observed()->at_least ? "more than " : "about ";
-      return second.third_failure.empty() ? "" : "more than ";
+      return second.third_failure().empty() ? "" : "more than ";
     }
 
 

@@ -3,10 +3,11 @@
 #include <supple/base/error.h>
 #include <supple/base/gather.h>
 #include <supple/base/text.h>
+#include <supple/mechanics/selection.h>
 #include <supple/mechanics/vertex_values.h>
 #include <supple/mesh/coarser_mesh.h>
-#include <supple/observe/space_error.h>
 #include <supple/run/chosen_vertices.h>
+#include <supple/run/error_words.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -40,11 +41,10 @@ namespace Supple
                   const std::vector<unsigned int> &shared,
                   const std::string &origin)
     {
-      if (text.rfind(vertex_word, 0) != 0)
+      const std::string index = after_word(text, vertex_word);
+      if (index.empty())
         return;
-      const auto place = std::find(shared.begin(),
-                                   shared.end(),
-                                   Utilities::string_to_int(text.substr(vertex_word.size())));
+      const auto place = std::find(shared.begin(), shared.end(), Utilities::string_to_int(index));
       if (place == shared.end())
         throw InputError(origin + ": " + text +
                          " is not on a mesh of cells twice as large (Space/Second mesh); take "
@@ -63,7 +63,6 @@ namespace Supple
                         a[3 * of_a + 1] - b[3 * of_b + 1],
                         a[3 * of_a + 2] - b[3 * of_b + 2]);
     }
-
   } // namespace
 
 
@@ -133,7 +132,7 @@ namespace Supple
         std::vector<std::size_t> own;
         for (const unsigned int dof : component.dofs)
           own.push_back(3 * std::size_t(body.serial_vertex[dof / 3]) + dof % 3);
-        Followed probe{component.name, {}, component.weight};
+        Followed probe{{}, component.weight};
         bool all_shared = true;
         for (const std::size_t place : gathered_on_first(own, body.mesh.communicator))
           {
@@ -320,17 +319,13 @@ namespace Supple
     if (!(motion > 0.))
       return "";
     const auto order = observed_order();
-    std::string how  = " of the motion (" + meshes_in_words();
+    std::string how  = meshes_in_words();
     if (order)
       how += ", order " + digits(*order, 2) + (at_least() ? " where it should be 2" : "");
     else if (!at_least())
       how += ", order " + digits(assumed_order, 2) + " assumed";
-    how += locks ? "; cells lock)" : ")";
-    const double part = error() / motion;
-    if (!(part <= largest_told_error))
-      return "in space more than " + digits(100. * largest_told_error, 2) + " %" + how;
-    return std::string("in space ") + (at_least() || locks ? "more than " : "about ") +
-           digits(100. * part, 2) + " %" + how;
+    return "in space " + part_of(error() / motion, at_least() || locks, "the motion") + " (" + how +
+           (locks ? "; cells lock)" : ")");
   }
 
 

@@ -75,11 +75,13 @@ namespace Supple
     if (!problem.parameters.time.estimate_error)
       return nullptr;
     const Parameters scene = StepDoubling::second_scene(problem.parameters);
-    const auto third_run   = [this, scene] {
-      return other_run(StepDoubling::second_scene(scene), [this] {
-        if (!interruption.after_step(observation()))
-          throw ComputationError("it was interrupted");
-      });
+    const auto third_run   = [this, scene, run = Companion::Run()](const double time) mutable {
+      if (!run)
+        run = other_run(StepDoubling::second_scene(scene), [this] {
+          if (!interruption.after_step(observation()))
+            throw ComputationError("it was interrupted");
+        });
+      return run(time);
     };
     return std::make_unique<StepDoubling>(problem.parameters.time,
                                           other_run(scene, [] {}),

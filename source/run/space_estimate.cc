@@ -3,6 +3,7 @@
 #include <supple/base/error.h>
 #include <supple/base/stopwatch.h>
 #include <supple/base/text.h>
+#include <supple/run/error_words.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -16,29 +17,7 @@ namespace Supple
 {
   namespace
   {
-    // Below it other errors are larger.
-    constexpr double least_told = 1e-4;
-
     const std::string cure = "Material/Volumetric locking cure = patches";
-
-
-    std::string
-    percent(const double part)
-    {
-      return digits(100. * part, 2) + " %";
-    }
-
-
-    /** "about 45 % of tip.uz", "more than 50 % of tip.uz" */
-    std::string
-    part_of(const double part, const bool at_least, const std::string &whole)
-    {
-      if (!(part <= largest_told_error))
-        return "more than " + percent(largest_told_error) + " of " + whole;
-      if (part < least_told)
-        return "less than " + percent(least_told) + " of " + whole;
-      return (at_least ? "more than " : "about ") + percent(part) + " of " + whole;
-    }
   } // namespace
 
 
@@ -58,7 +37,7 @@ namespace Supple
           if (over_run.of_work() > largest_told_error)
             return part_of(over_run.of_work(), at_least, "the elastic energy");
           return "a swing too quick by " + std::string(at_least ? "more than " : "") +
-                 percent(over_run.of_frequency());
+                 percent_of(over_run.of_frequency());
       }
   }
 
@@ -185,7 +164,7 @@ namespace Supple
     if (!shown)
       return true;
     cell_errors.step     = now.measurement.step;
-    cell_errors.of_cells = known ? space_error->of_cells() : std::vector<float>();
+    cell_errors.of_cells = known ? tools->energy.of_cells() : std::vector<float>();
     of_work = known ? errors.energy.of_work() : std::numeric_limits<double>::quiet_NaN();
     if (now.last)
       {
@@ -214,24 +193,20 @@ namespace Supple
         errors.unknown = "the forces have no elastic energy";
         return errors;
       }
-    if (!space_error)
+    if (!tools)
       {
-        space_error = std::make_unique<SpaceError>(configuration, problem.forces.elastic());
-        points      = std::make_unique<PointForces>(problem.body,
-                                               problem.constraints,
-                                               problem.parameters.loads,
-                                               problem.parameters.file);
+        tools = std::make_unique<SpaceErrorTools>(problem);
         problem.body.initialize(loads);
       }
     problem.forces.set_loads(loads, configuration, problem.stationary ? 1. : errors.time);
     if (problem.stationary)
       loads *= errors.time;
-    errors.energy  = space_error->estimate();
+    errors.energy  = tools->energy.estimate();
     errors.unknown = obstacle(errors.energy, now.measurement.kinetic);
     errors.of      = kind_of_error();
     if (now.last && problem.stationary && errors.unknown.empty())
       add_probes(errors);
-    if (errors.unknown.empty() && points->matter(integrator.reactions(), loads))
+    if (errors.unknown.empty() && tools->points.matter(integrator.reactions(), loads))
       errors.unknown =
         "a force acts at a point or along a line, where the exact strain energy is "
         "infinite";
@@ -280,7 +255,7 @@ namespace Supple
     const double least = round_off * round_off * stiffness * problem.mesh.volume;
     if (!(energy.strain_energy > std::max(least, little * kinetic)))
       return "the body has no strain energy to speak of";
-    if (!space_error->recovery.is_everywhere())
+    if (!tools->energy.recovery.is_everywhere())
       return "the body has too few cells for an estimate";
     if (energy.is_unknown_by_locking())
       return "the cells lock; " + cure + " helps";
@@ -295,13 +270,8 @@ namespace Supple
       return;
     try
       {
-        ProbeErrors duals(*space_error,
-                          problem.configuration,
-                          problem.forces,
-                          problem.implicit_operator,
-                          *problem.solver,
-                          problem.effort);
-        errors.probes = duals.find(probes, *points);
+        ProbeErrors duals = tools->duals();
+        errors.probes     = duals.find(probes, tools->points);
         if (errors.of == SpaceErrors::Of::work && problem.forces.change_operator())
           errors.work = duals.find_of_work(loads);
         const auto &pilots = problem.parameters.mesh.refinement.pilots;

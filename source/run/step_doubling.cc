@@ -1,7 +1,5 @@
 #include <supple/run/step_doubling.h>
 
-#include <supple/base/error.h>
-#include <supple/base/stopwatch.h>
 
 #include <nlohmann/json.hpp>
 
@@ -51,13 +49,13 @@ namespace Supple
 
   StepDoubling::StepDoubling(const TimeParameters &time,
                              const Companion::Run &second_run,
-                             const std::function<Companion::Run()> &make_third_run,
+                             const Companion::Run &third_run,
                              const double &motion)
     : order(time.order())
     , variable_steps(time.has_variable_steps())
     , gain(gain_of(time))
     , second_run(second_run)
-    , make_third_run(make_third_run)
+    , third_run(third_run)
     , motion(motion)
   {
   }
@@ -79,7 +77,7 @@ namespace Supple
     if (now.last && failure().empty() && largest > large * motion)
       {
         if (from_before)
-          third_failure = "the error was largest before the run went on from a checkpoint";
+          third_run.failure = "the error was largest before the run went on from a checkpoint";
         else
           add_third_run();
       }
@@ -136,23 +134,12 @@ namespace Supple
   void
   StepDoubling::add_third_run()
   {
-    const Stopwatch stopwatch;
-    try
-      {
-        const Companion::Run third_run = make_third_run();
-        const Companion::Arrival third = third_run(time_of_largest);
-        if (std::abs(third.time - time_of_largest) <= 1e-9 * time_of_largest)
-          of_three = observe(largest_vertex_distance(first_at_largest, second_at_largest),
-                             largest_vertex_distance(second_at_largest, third.displacement),
-                             largest_vertex_distance(first_at_largest, third.displacement));
-        else
-          third_failure = "it has no time in common with the others";
-      }
-    catch (const ComputationError &error)
-      {
-        third_failure = error.what();
-      }
-    third_seconds = stopwatch.seconds();
+    if (const std::optional<Companion::Arrival> third = third_run.move_to(time_of_largest))
+      of_three = observe(largest_vertex_distance(first_at_largest, second_at_largest),
+                         largest_vertex_distance(second_at_largest, third->displacement),
+                         largest_vertex_distance(first_at_largest, third->displacement));
+    else if (third_run.failure.empty())
+      third_run.failure = "it has no time in common with the others";
   }
 
 

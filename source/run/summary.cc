@@ -149,8 +149,8 @@ namespace Supple
               if (doubling->observed()->order)
                 second["order"] = *doubling->observed()->order;
             }
-          if (!doubling->third_failure.empty())
-            second["third_failed"] = doubling->third_failure;
+          if (!doubling->third_failure().empty())
+            second["third_failed"] = doubling->third_failure();
         }
       return json;
     }

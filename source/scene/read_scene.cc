@@ -2,6 +2,7 @@
 
 #include <supple/base/error.h>
 #include <supple/base/expression.h>
+#include <supple/mechanics/selection.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -133,12 +134,10 @@ namespace Supple
       else
         return;
       const LoadParameters &loads = parameters.loads;
-      const auto one_vertex       = [&](const std::string &word) {
-        return loads.nodal_force_on.rfind(word, 0) == 0;
-      };
       const bool forces =
         !Expression(loads.nodal_force, 3, parameters.origin("Loads/Nodal force")).is_zero() &&
-        !one_vertex("vertex ") && !one_vertex("nearest to ");
+        after_word(loads.nodal_force_on, vertex_word).empty() &&
+        after_word(loads.nodal_force_on, point_word).empty();
       for (const auto &[by_vertex, entry, instead] :
            {std::make_tuple(forces, "Loads/Nodal force", "take Loads/Traction or Loads/Body force"),
             std::make_tuple(parameters.material.vertex_mass > 0.,

@@ -10,8 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <iostream>
 #include <limits>
 
 namespace Supple
@@ -49,10 +47,7 @@ namespace Supple
                        const bool quiet,
                        const MPI_Comm communicator)
     : parameters(study)
-    , folder(folder)
-    , communicator(communicator)
-    , root(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-    , talks(!quiet && root)
+    , output(folder, quiet, communicator)
     , plan(parameters)
     , quantities(parameters, plan)
     , runner(quantities.needed(), communicator)
@@ -66,14 +61,6 @@ namespace Supple
     table.targets     = {aim};
     table.facts       = {parameters.scene_in_words(),
                          "Aim: " + percent(aim) + ". Error: " + quantities.error_meaning() + "."};
-  }
-
-
-  void
-  AimSearch::say(const std::string &text) const
-  {
-    if (talks)
-      std::cout << text << std::endl;
   }
 
 
@@ -137,26 +124,12 @@ namespace Supple
   void
   AimSearch::check() const
   {
-    say("Aim " + percent(aim) + " of scene " + plan.base.scene_name + ": " +
-        std::to_string(list.size()) + " methods, and a reference");
+    output.say("Aim " + percent(aim) + " of scene " + plan.base.scene_name + ": " +
+               std::to_string(list.size()) + " methods, and a reference");
     runner.check(plan.base);
     for (const Candidate &candidate : list)
-      say("  " + candidate.method.title +
-          (candidate.variable_steps ? ", variable steps" : ", fixed steps"));
-  }
-
-
-  void
-  AimSearch::open_output() const
-  {
-    prepare_output_folder(folder, communicator, [&] {
-      namespace fs = std::filesystem;
-      fs::create_directories(folder);
-      lock = std::make_unique<const FolderLock>(folder);
-      for (const char *name : {"study.csv", "study.md", "report.html"})
-        fs::remove(fs::path(folder) / name);
-      write_whole_file(folder + "/study.csv", table.csv());
-    });
+      output.say("  " + candidate.method.title +
+                 (candidate.variable_steps ? ", variable steps" : ", fixed steps"));
   }
 
 
@@ -165,9 +138,10 @@ namespace Supple
   {
     const InterruptGuard interrupt;
     runner.check(plan.base); // what is refused leaves an earlier study as it is
-    open_output();
-    say("Supple " SUPPLE_VERSION ", the soonest run of " + plan.base.scene_name +
-        " with an error of " + percent(aim));
+    output.open(study_files(),
+                [this] { write_whole_file(output.folder + "/study.csv", table.csv()); });
+    output.say("Supple " SUPPLE_VERSION ", the soonest run of " + plan.base.scene_name +
+               " with an error of " + percent(aim));
     find_reference();
     const double reference_end = stopwatch.seconds();
     for (Candidate &candidate : list)
@@ -182,15 +156,16 @@ namespace Supple
             continue;
           }
         search(candidate);
-        if (interrupt.requested(communicator))
-          throw InterruptedError("Interrupted; the runs so far are in " + folder + "/study.csv.");
+        if (interrupt.requested(output.communicator))
+          throw InterruptedError("Interrupted; the runs so far are in " + output.folder +
+                                 "/study.csv.");
       }
     const Candidate *const best = winner();
     if (!best)
       {
         write();
         throw ComputationError("No run meets the aim of " + percent(aim) +
-                               ". What was tried is in " + folder + "/study.md.");
+                               ". What was tried is in " + output.folder + "/study.md.");
       }
     std::vector<std::string> sentences = result(*best);
     sentences.push_back("The search took " + readable_duration(stopwatch.seconds()) +
@@ -198,7 +173,7 @@ namespace Supple
     table.facts.insert(table.facts.end(), sentences.begin(), sentences.end());
     write();
     for (const std::string &sentence : sentences)
-      say(sentence);
+      output.say(sentence);
   }
 
 
@@ -229,8 +204,8 @@ namespace Supple
         reference_seconds += record.seconds;
         if (coarse)
           distance = error_of(*coarse, record);
-        say("  reference: " + run.label() + ", " + digits(record.seconds, 3) + " s" +
-            (coarse ? "; the one before is " + percent(distance) + " from it" : ""));
+        output.say("  reference: " + run.label() + ", " + digits(record.seconds, 3) + " s" +
+                   (coarse ? "; the one before is " + percent(distance) + " from it" : ""));
         coarse = record;
         if (distance <= largest_distance * aim)
           break;
@@ -313,8 +288,6 @@ namespace Supple
       {
         return false;
       }
-    scene.output.report = false;
-    scene.checkpoint    = {};
     StudyRecord record;
     try
       {
@@ -326,15 +299,8 @@ namespace Supple
         record.reason = error.what();
       }
     const bool done = record.status == StudyRecord::Status::done;
-    row.status      = record.status;
-    row.reason      = record.reason;
-    row.steps       = record.steps;
-    row.rejected    = record.rejected;
-    row.failed      = record.failed;
-    row.seconds     = record.seconds;
-    row.n_cells     = record.n_cells;
-    row.warnings    = record.warnings;
-    row.size        = record.steps > 0 ? record.end / record.steps : 0.;
+    row.take(record);
+    row.size = record.steps > 0 ? record.end / record.steps : 0.;
     if (done)
       row.errors = quantities.errors(record, &*reference);
     const double error = done ? error_of(record, *reference) : nothing;
@@ -342,7 +308,7 @@ namespace Supple
     candidate.rows.push_back(table.rows.size());
     table.add(row);
     space_errors.push_back(record.space_error);
-    say(table.line(table.rows.back()));
+    output.say(table.line(table.rows.back()));
     write();
 
     if (error + reference_error <= aim)
@@ -401,10 +367,7 @@ namespace Supple
   void
   AimSearch::write() const
   {
-    if (!root)
-      return;
-    write_whole_file(folder + "/study.csv", table.csv());
-    write_whole_file(folder + "/study.md", table.markdown());
-    write_report(folder, table);
+    if (output.root)
+      write_study(output.folder, table);
   }
 } // namespace Supple

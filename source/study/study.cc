@@ -11,8 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <iostream>
 
 namespace Supple
 {
@@ -24,10 +22,7 @@ namespace Supple
                const bool quiet,
                const MPI_Comm communicator)
     : parameters(study)
-    , folder(folder)
-    , communicator(communicator)
-    , root(this_mpi_process(communicator) == 0)
-    , talks(!quiet && root)
+    , output(folder, quiet, communicator)
     , plan(parameters)
     , quantities(parameters, plan)
     , runner(quantities.needed(), communicator)
@@ -42,14 +37,6 @@ namespace Supple
     });
     table.targets     = parameters.targets;
     state_facts();
-  }
-
-
-  void
-  Study::say(const std::string &text) const
-  {
-    if (talks)
-      std::cout << text << std::endl;
   }
 
 
@@ -69,10 +56,10 @@ namespace Supple
   void
   Study::check() const
   {
-    say("Study " + parameters.name + " of scene " + plan.base.scene_name + ": " +
-        std::to_string(plan.runs.size()) + " runs and " +
-        std::to_string(plan.references.size() + plan.level_references.size()) +
-        " for the reference");
+    output.say("Study " + parameters.name + " of scene " + plan.base.scene_name + ": " +
+               std::to_string(plan.runs.size()) + " runs and " +
+               std::to_string(plan.references.size() + plan.level_references.size()) +
+               " for the reference");
     for (const auto &list : {plan.references, plan.level_references, plan.runs})
       for (const PlannedRun &run : list)
         {
@@ -87,7 +74,7 @@ namespace Supple
                 throw InputError("Run '" + run.label() + "': " + error.what());
               result = std::string("refused: ") + error.what();
             }
-          say("  " + run.label() + ": " + result);
+          output.say("  " + run.label() + ": " + result);
         }
   }
 
@@ -103,7 +90,7 @@ namespace Supple
       table.facts.push_back("Set on the command line: " + set + ".");
     if (!table.error_names.empty())
       table.facts.push_back("Error: " + quantities.error_meaning() + ".");
-    const unsigned int n_ranks = n_mpi_processes(communicator);
+    const unsigned int n_ranks = n_mpi_processes(output.communicator);
     table.facts.push_back(
       (parameters.repeats == 0 ? std::string("Seconds: run time with all measurements")
                                : "Seconds: run time without set-up and output, median of " +
@@ -116,23 +103,6 @@ namespace Supple
 
 
   void
-  Study::open_output()
-  {
-    prepare_output_folder(folder, communicator, [&] {
-      namespace fs = std::filesystem;
-      fs::create_directories(folder);
-      lock = std::make_unique<const FolderLock>(folder);
-      for (const char *name : {"study.csv", "study.md", "report.html"})
-        fs::remove(fs::path(folder) / name);
-      for (const char *plot : {"work_precision", "convergence"})
-        for (const char *ending : {".gp", ".svg", ".png"})
-          fs::remove(fs::path(folder) / (std::string(plot) + ending));
-      write_whole_file(folder + "/study.csv", table.csv());
-    });
-  }
-
-
-  void
   Study::run()
   {
     const InterruptGuard interrupt;
@@ -140,9 +110,10 @@ namespace Supple
     for (const auto &list : {plan.references, plan.level_references})
       for (const PlannedRun &run : list)
         runner.check(plan.parameters(run)); // what is refused leaves an earlier study as it is
-    open_output();
-    say("Supple " SUPPLE_VERSION ", study " + parameters.name + ": " +
-        std::to_string(plan.runs.size()) + " runs of scene " + plan.base.scene_name);
+    output.open(study_files(),
+                [this] { write_whole_file(output.folder + "/study.csv", table.csv()); });
+    output.say("Supple " SUPPLE_VERSION ", study " + parameters.name + ": " +
+               std::to_string(plan.runs.size()) + " runs of scene " + plan.base.scene_name);
     try
       {
         run_references();
@@ -150,9 +121,9 @@ namespace Supple
           {
             run_level_reference(run);
             table.add(run_one(run));
-            say(table.line(table.rows.back()));
+            output.say(table.line(table.rows.back()));
             write(false);
-            if (interrupt.requested(communicator))
+            if (interrupt.requested(output.communicator))
               throw InterruptedError("");
           }
       }
@@ -161,14 +132,15 @@ namespace Supple
         write(true);
         throw InterruptedError("Interrupted after " + std::to_string(table.rows.size()) + " of " +
                                std::to_string(plan.runs.size()) +
-                               " runs; the table of these is in " + folder + ".");
+                               " runs; the table of these is in " + output.folder + ".");
       }
     write(true);
 
     if (plan.kind != StudyPlan::Kind::cases)
       for (const std::string &sentence : table.sentences())
-        say(sentence);
-    say("done in " + readable_duration(stopwatch.seconds()) + ": " + folder + "/study.md");
+        output.say(sentence);
+    output.say("done in " + readable_duration(stopwatch.seconds()) + ": " + output.folder +
+               "/study.md");
     require_any_right();
   }
 
@@ -186,7 +158,7 @@ namespace Supple
                            " runs of the study is done" + (table.judged ? " and right" : "") +
                            "; the first: " + first.run.label() + ": " + first.status_text() +
                            (first.verdict.empty() ? "" : ", " + first.verdict) +
-                           ". The table is in " + folder + ".");
+                           ". The table is in " + output.folder + ".");
   }
 
 
@@ -200,7 +172,7 @@ namespace Supple
         const StudyRecord &record = records.back();
         if (record.status != StudyRecord::Status::done)
           throw ComputationError("The reference (" + run.label() + ") failed: " + record.reason);
-        say("  reference: " + run.label() + ", " + digits(record.seconds, 3) + " s");
+        output.say("  reference: " + run.label() + ", " + digits(record.seconds, 3) + " s");
       }
     if (records.empty())
       return;
@@ -217,7 +189,7 @@ namespace Supple
           "; its own error is at most its distance from " + plan.references.front().label() + ":";
         for (std::size_t i = 0; i < errors.size(); ++i)
           text += (i == 0 ? " " : ", ") + percent(errors[i]) + " of " + table.error_names[i];
-        say("  its own error: " + percent(table.reference_error));
+        output.say("  its own error: " + percent(table.reference_error));
       }
     table.facts.push_back(text + ".");
     const auto in_space = reference->summary.find("error_estimate/space/work");
@@ -246,8 +218,9 @@ namespace Supple
     if (level_reference->status != StudyRecord::Status::done)
       throw ComputationError("The reference (" + planned->label() +
                              ") failed: " + level_reference->reason);
-    say("  reference: " + planned->label() + ", " + digits(level_reference->seconds, 3) +
-        " s, in space " + percent(quantities.errors(*level_reference, &*reference).front()));
+    level_error = quantities.errors(*level_reference, &*reference).front();
+    output.say("  reference: " + planned->label() + ", " + digits(level_reference->seconds, 3) +
+               " s, in space " + percent(level_error));
   }
 
 
@@ -258,11 +231,11 @@ namespace Supple
     row.run = run;
     try
       {
-        Parameters scene         = plan.parameters(run);
-        scene.output.report      = false; // the study has one for all
-        scene.checkpoint         = {};    // what goes on lacks the rows before
-        const StudyRecord record = runner.record(
-          scene, parameters.histories ? folder + "/runs/" + run.folder_name() : std::string());
+        const Parameters scene = plan.parameters(run);
+        const StudyRecord record =
+          runner.record(scene,
+                        parameters.histories ? output.folder + "/runs/" + run.folder_name()
+                                             : std::string());
         measure(row, record);
         if (record.status == StudyRecord::Status::done && parameters.repeats > 0)
           row.seconds = runner.time(scene, parameters.repeats);
@@ -297,15 +270,8 @@ namespace Supple
   void
   Study::measure(StudyRow &row, const StudyRecord &record) const
   {
-    row.status   = record.status;
-    row.reason   = record.reason;
-    row.steps    = record.steps;
-    row.rejected = record.rejected;
-    row.failed   = record.failed;
-    row.seconds  = record.seconds;
-    row.n_cells  = record.n_cells;
-    row.warnings = record.warnings;
-    row.size     = row.run.cell_size > 0. ? row.run.cell_size : record.cell_size;
+    row.take(record);
+    row.size = row.run.cell_size > 0. ? row.run.cell_size : record.cell_size;
     if (plan.kind == StudyPlan::Kind::methods)
       row.size = record.end / record.steps;
     row.values = quantities.values(record);
@@ -314,7 +280,7 @@ namespace Supple
     row.errors = quantities.errors(record, reference ? &*reference : nullptr);
     if (!level_reference)
       return;
-    row.error_in_space = quantities.errors(*level_reference, &*reference).front();
+    row.error_in_space = level_error;
     row.error_in_time  = quantities.errors(record, &*level_reference).front();
   }
 
@@ -322,15 +288,10 @@ namespace Supple
   void
   Study::write(const bool with_plots) const
   {
-    if (!root)
+    if (!output.root)
       return;
-    write_whole_file(folder + "/study.csv", table.csv());
-    write_whole_file(folder + "/study.md", table.markdown());
-    write_report(folder, table);
-    if (!with_plots || plan.kind == StudyPlan::Kind::cases)
-      return;
-    const std::string problem = plot_study(table, folder);
-    if (!problem.empty())
-      say(problem);
+    write_study(output.folder, table);
+    if (with_plots && plan.kind != StudyPlan::Kind::cases)
+      output.say(plot_study(table, output.folder));
   }
 } // namespace Supple

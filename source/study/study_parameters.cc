@@ -207,26 +207,31 @@ namespace Supple
 
 
   StudyParameters
-  StudyParameters::read(const std::string &file, const std::vector<Override> &overrides)
+  StudyParameters::checked(const std::function<void(StudyParameters &, ParameterHandler &)> &parse)
   {
     StudyParameters study;
     ParameterHandler prm;
     study.declare(prm);
-    study.parse(prm, file, overrides);
+    parse(study, prm);
     study.check();
     return study;
   }
 
 
   StudyParameters
+  StudyParameters::read(const std::string &file, const std::vector<Override> &overrides)
+  {
+    return checked(
+      [&](StudyParameters &study, ParameterHandler &prm) { study.parse(prm, file, overrides); });
+  }
+
+
+  StudyParameters
   StudyParameters::aim_of_scene(const std::string &file, const std::vector<Override> &overrides)
   {
-    StudyParameters study;
-    ParameterHandler prm;
-    study.declare(prm);
-    study.parse_for_scene(prm, file, overrides);
-    study.check();
-    return study;
+    return checked([&](StudyParameters &study, ParameterHandler &prm) {
+      study.parse_for_scene(prm, file, overrides);
+    });
   }
 
 

@@ -6,6 +6,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,16 +19,6 @@ namespace Supple
   namespace
   {
     constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
-
-    std::string
-    joined(const std::set<std::string> &names)
-    {
-      std::string text;
-      for (const std::string &name : names)
-        text += (text.empty() ? "" : ", ") + name;
-      return text;
-    }
 
 
     double
@@ -122,8 +114,9 @@ namespace Supple
   {
     if (available.count(name) == 0)
       throw InputError(probes_changed + place + ": '" + name +
-                       "' is no column of history.csv or probes.csv; " + joined(available) +
-                       " are" + did_you_mean(name, {available.begin(), available.end()}));
+                       "' is no column of history.csv or probes.csv; " +
+                       boost::algorithm::join(available, ", ") + " are" +
+                       did_you_mean(name, {available.begin(), available.end()}));
   }
 
 

@@ -1,3 +1,4 @@
+#include <supple/base/files.h>
 #include <supple/report/report_page.h>
 #include <supple/study/study_table.h>
 
@@ -25,5 +26,29 @@ namespace Supple
                 {"rows", rows},
                 {"csv", table.csv()},
                 {"version", SUPPLE_VERSION}});
+  }
+
+
+  std::vector<std::string>
+  study_files()
+  {
+    return {"study.csv",
+            "study.md",
+            "report.html",
+            "work_precision.gp",
+            "work_precision.svg",
+            "work_precision.png",
+            "convergence.gp",
+            "convergence.svg",
+            "convergence.png"};
+  }
+
+
+  void
+  write_study(const std::string &folder, const StudyTable &table)
+  {
+    write_whole_file(folder + "/study.csv", table.csv());
+    write_whole_file(folder + "/study.md", table.markdown());
+    write_report(folder, table);
   }
 } // namespace Supple

@@ -123,6 +123,8 @@ namespace Supple
         record.reason = error.what();
         return record;
       }
+    scene.output.report = false; // the study has one for all
+    scene.checkpoint    = {};    // what goes on lacks the rows before
     Simulation simulation(scene, folder, true, communicator);
 
     Recorder recorder(wanted, simulation.probe_columns(), record, budget, communicator);

@@ -219,6 +219,20 @@ namespace Supple
   }
 
 
+  void
+  StudyRow::take(const StudyRecord &record)
+  {
+    status   = record.status;
+    reason   = record.reason;
+    steps    = record.steps;
+    rejected = record.rejected;
+    failed   = record.failed;
+    seconds  = record.seconds;
+    n_cells  = record.n_cells;
+    warnings = record.warnings;
+  }
+
+
   double
   StudyRow::error() const
   {

@@ -1,7 +1,7 @@
 #ifndef supple_identification_h
 #define supple_identification_h
 
-#include <supple/base/folder_lock.h>
+#include <supple/base/task_output.h>
 #include <supple/identification/identification_fit.h>
 #include <supple/identification/identification_table.h>
 #include <supple/identification/layered_model.h>
@@ -40,9 +40,6 @@ namespace Supple
     run();
 
   private:
-    void
-    open_output();
-
     /** All pairs, thickness in the outer loop. */
     void
     search_grid();
@@ -63,15 +60,8 @@ namespace Supple
     void
     write() const;
 
-    void
-    say(const std::string &text) const;
-
     const IdentificationParameters parameters;
-    const std::string folder;
-    std::unique_ptr<const FolderLock> lock; ///< of the folder, on the first process
-    const MPI_Comm communicator;
-    const bool root;
-    const bool talks;
+    TaskOutput output;
     const std::vector<MeasuredSet> sets;
     const LayeredModel model;
     IdentificationTable table;

@@ -10,6 +10,15 @@
 
 namespace Supple
 {
+  /** How an entry begins that selects a vertex by its index, and one by a point near to it. */
+  inline const std::string vertex_word = "vertex ", point_word = "nearest to ";
+
+
+  /** What follows such a word in an entry; empty if it does not begin so. */
+  std::string
+  after_word(const std::string &text, const std::string &word);
+
+
   /** The vertices, boundaries and regions of a body that a user means by words and numbers. */
   class Selection
   {

@@ -7,6 +7,11 @@
 
 namespace Supple
 {
+  /** Whether a scene's mesh is to be refined by pilot runs. */
+  bool
+  asks_for_pilots(const Parameters &scene);
+
+
   /**
    * A scene with its mesh refined by pilot runs, as Mesh/Refine and Space/Aim ask for: each runs
    * the scene on the mesh so far, without results, and the cells with most of the error are cut.

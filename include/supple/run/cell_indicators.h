@@ -1,9 +1,8 @@
 #ifndef supple_cell_indicators_h
 #define supple_cell_indicators_h
 
-#include <supple/observe/probe_errors.h>
 #include <supple/run/listener.h>
-#include <supple/run/problem.h>
+#include <supple/run/space_error_tools.h>
 #include <supple/time/time_integrator.h>
 
 #include <limits>
@@ -81,9 +80,8 @@ namespace Supple
     const TimeIntegrator &integrator;
     const Probes &probes;
     std::string quantity;
-    std::unique_ptr<SpaceError> space_error; ///< from the first look on
-    std::unique_ptr<PointForces> points;
-    double next_time      = 0.; ///< of a look [s]
+    std::unique_ptr<SpaceErrorTools> tools; ///< from the first look on
+    double next_time      = 0.;             ///< of a look [s]
     double relative_error = std::numeric_limits<double>::quiet_NaN();
     std::vector<double> indicators; ///< of the cells of the body
   };

@@ -9,10 +9,6 @@
 
 namespace Supple
 {
-  /** How an entry begins that selects a vertex by its index. */
-  inline const std::string vertex_word = "vertex ";
-
-
   /** Calls @p change with each entry that selects vertices, and where it was set. */
   void
   change_selections(Parameters &scene,

@@ -125,7 +125,6 @@ namespace Supple
     /** The displacement of a probe on the first process. */
     struct Followed
     {
-      std::string name;
       std::vector<std::array<std::size_t, 2>> places; ///< in Values of the run and its companion
       double weight;
     };

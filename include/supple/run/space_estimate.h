@@ -3,7 +3,7 @@
 
 #include <supple/observe/probe_errors.h>
 #include <supple/run/listener.h>
-#include <supple/run/problem.h>
+#include <supple/run/space_error_tools.h>
 #include <supple/time/time_integrator.h>
 
 #include <nlohmann/json_fwd.hpp>
@@ -130,9 +130,8 @@ namespace Supple
     const TimeIntegrator &integrator;
     const Probes &probes;
     const std::function<bool(const Measurement &)> frame_due;
-    std::unique_ptr<SpaceError> space_error; ///< from the first estimate on
-    std::unique_ptr<PointForces> points;
-    Vector loads; ///< at the time of the state [N]
+    std::unique_ptr<SpaceErrorTools> tools; ///< from the first estimate on
+    Vector loads;                           ///< at the time of the state [N]
     std::optional<SpaceErrors> last;
     CellErrors cell_errors;
     double of_work = std::numeric_limits<double>::quiet_NaN(); ///< of that state

@@ -4,7 +4,6 @@
 #include <supple/run/companion.h>
 #include <supple/run/listener.h>
 
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -41,12 +40,12 @@ namespace Supple
     second_scene(const Parameters &scene);
 
     /** @param time of the run whose error is asked for
-     *  @param second_run of second_scene(); it may throw a ComputationError
-     *  @param make_third_run with second_scene() of that; both may throw a ComputationError
-     *  @param motion          largest of a vertex so far [m]; it changes, and must outlive this */
+     *  @param second_run of second_scene()
+     *  @param third_run  of second_scene() of that; begun where it is needed alone
+     *  @param motion     largest of a vertex so far [m]; it changes, and must outlive this */
     StepDoubling(const TimeParameters &time,
                  const Companion::Run &second_run,
-                 const std::function<Companion::Run()> &make_third_run,
+                 const Companion::Run &third_run,
                  const double &motion);
 
     /** Moves the second run up to the time of this state. */
@@ -105,13 +104,19 @@ namespace Supple
     double
     seconds() const
     {
-      return second_run.seconds + third_seconds;
+      return second_run.seconds + third_run.seconds;
     }
 
-    double largest = 0.;       ///< error so far, of the order p [m]
-    double last    = 0.;       ///< error where it was found last [m]
-    std::string third_failure; ///< why there is no third run, where there should be one
-    const unsigned int order;  ///< p
+    /** Why there is no third run, where there should be one. */
+    const std::string &
+    third_failure() const
+    {
+      return third_run.failure;
+    }
+
+    double largest = 0.;      ///< error so far, of the order p [m]
+    double last    = 0.;      ///< error where it was found last [m]
+    const unsigned int order; ///< p
 
   private:
     std::optional<double>
@@ -126,9 +131,7 @@ namespace Supple
 
     const bool variable_steps;
     const double gain; ///< how much the error falls from run to run
-    Companion second_run;
-    double third_seconds = 0.; ///< that the third run took
-    const std::function<Companion::Run()> make_third_run;
+    Companion second_run, third_run;
     std::optional<double> error_now;
     const double &motion; ///< largest of a vertex so far [m]
     double time_of_largest = 0.;

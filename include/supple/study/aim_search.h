@@ -1,8 +1,8 @@
 #ifndef supple_aim_search_h
 #define supple_aim_search_h
 
-#include <supple/base/folder_lock.h>
 #include <supple/base/stopwatch.h>
+#include <supple/base/task_output.h>
 #include <supple/study/aim_curve.h>
 #include <supple/study/study_parameters.h>
 #include <supple/study/study_plan.h>
@@ -67,9 +67,6 @@ namespace Supple
     PlannedRun
     planned(const Candidate &candidate, double x) const;
 
-    void
-    open_output() const;
-
     /** Two runs of a method of high order, and how far they are apart. @throws ComputationError */
     void
     find_reference();
@@ -104,15 +101,8 @@ namespace Supple
     void
     write() const;
 
-    void
-    say(const std::string &text) const;
-
     const StudyParameters parameters;
-    const std::string folder;
-    std::unique_ptr<const FolderLock> mutable lock; ///< of the folder, on the first process
-    const MPI_Comm communicator;
-    const bool root;
-    const bool talks;
+    TaskOutput output;
     const StudyPlan plan;
     const StudyQuantities quantities;
     const StudyRunner runner;

@@ -1,7 +1,7 @@
 #ifndef supple_study_h
 #define supple_study_h
 
-#include <supple/base/folder_lock.h>
+#include <supple/base/task_output.h>
 #include <supple/study/study_parameters.h>
 #include <supple/study/study_plan.h>
 #include <supple/study/study_quantities.h>
@@ -55,9 +55,6 @@ namespace Supple
     void
     require_any_right() const;
 
-    void
-    open_output();
-
     /** What the table says of how it came about. */
     void
     state_facts();
@@ -80,21 +77,15 @@ namespace Supple
     void
     write(bool with_plots) const;
 
-    void
-    say(const std::string &text) const;
-
     const StudyParameters parameters;
-    const std::string folder;
-    std::unique_ptr<const FolderLock> lock; ///< of the folder, on the first process
-    const MPI_Comm communicator;
-    const bool root;
-    const bool talks;
+    TaskOutput output;
     const StudyPlan plan;
     const StudyQuantities quantities;
     const StudyRunner runner;
     std::optional<StudyRecord> reference;
     std::optional<StudyRecord> level_reference; ///< of methods on levels
     std::string level_of_reference;             ///< the level of that
+    double level_error = 0.;                    ///< of that, in space; relative
     StudyTable table;
   };
 } // namespace Supple

@@ -3,6 +3,7 @@
 
 #include <supple/scene/task_parameters.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,10 @@ namespace Supple
     declare(dealii::ParameterHandler &prm);
 
   private:
+    /** Those that @p parse gives to the entries. @throws InputError */
+    static StudyParameters
+    checked(const std::function<void(StudyParameters &, dealii::ParameterHandler &)> &parse);
+
     void
     declare_aim(dealii::ParameterHandler &prm);
 

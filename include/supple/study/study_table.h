@@ -32,6 +32,10 @@ namespace Supple
     std::vector<double> orders; ///< observed, from the row before of the same series to this one
     bool on_front = false;      ///< no other run is both better and quicker
 
+    /** Takes what a record tells of a run beside its errors and values. */
+    void
+    take(const StudyRecord &record);
+
     /** The error that orders, front and plots are about; not-a-number if there is none. */
     double
     error() const;
@@ -106,6 +110,16 @@ namespace Supple
   /** Writes report.html: the table, and plots of error against run time. @throws WriteError */
   void
   write_report(const std::string &folder, const StudyTable &table);
+
+
+  /** The names of all files that a study leaves in its folder, for remove_files(). */
+  std::vector<std::string>
+  study_files();
+
+
+  /** Writes study.csv, study.md and report.html. @throws WriteError */
+  void
+  write_study(const std::string &folder, const StudyTable &table);
 } // namespace Supple
 
 #endif
