@@ -28,9 +28,13 @@ namespace Supple
     , traction(parameters.traction, 3, scene.origin("Loads/Traction"))
     , time_dependent(body_force.depends_on_time() || nodal_force.depends_on_time() ||
                      traction.depends_on_time())
-    , traction_faces(
-        loaded_faces(body, !traction.is_zero(), parameters.traction_on, "Traction", scene))
   {
+    const Faces faces =
+      loaded_faces(body, !traction.is_zero(), parameters.traction_on, "Traction", scene);
+    if (body.is_quadratic())
+      quadratic_traction_faces = nodes_of<6>(faces);
+    else
+      traction_faces = nodes_of<3>(faces);
     if (!nodal_force.is_zero())
       {
         const auto nodes =
@@ -55,7 +59,7 @@ namespace Supple
   }
 
 
-  /** Integrals of the force's linear interpolation times the shape functions. */
+  /** Integrals of the force's interpolation times the shape functions. */
   void
   DeadLoads::add_body_force(const double time, Vector &to) const
   {
@@ -82,8 +86,38 @@ namespace Supple
 
 
   void
+  DeadLoads::add_quadratic_traction(const double time, Vector &to) const
+  {
+    for (const auto &face : quadratic_traction_faces)
+      {
+        std::array<Point<3>, 6> x;
+        std::array<Tensor<1, 3>, 6> values;
+        for (unsigned int v = 0; v < 6; ++v)
+          {
+            x[v] = body.position(face[v]);
+            for (unsigned int i = 0; i < 3; ++i)
+              values[v][i] = traction.value(x[v], time, i);
+          }
+        const CurvedFace over_face(x);
+        for (unsigned int q = 0; q < CurvedFace::n_points; ++q)
+          {
+            const std::array<double, 6> &N = CurvedFace::shape_values()[q];
+            Tensor<1, 3> force;
+            for (unsigned int v = 0; v < 6; ++v)
+              force += over_face.normals[q].norm() * N[v] * values[v];
+            for (unsigned int v = 0; v < 6; ++v)
+              if (face[v] < body.n_owned)
+                for (unsigned int i = 0; i < 3; ++i)
+                  to.local_element(3 * face[v] + i) += N[v] * force[i];
+          }
+      }
+  }
+
+
+  void
   DeadLoads::add_traction(const double time, Vector &to) const
   {
+    add_quadratic_traction(time, to);
     for (const auto &face : traction_faces)
       {
         std::array<Point<3>, 3> x;

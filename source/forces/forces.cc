@@ -21,7 +21,7 @@ namespace Supple
                                              const ParameterFile &);
 
     /** Of each kind of load that a scene can have; null where it has none. */
-    constexpr Maker load_makers[] = {DeadLoads::make, Pressure::make, Gravity::make};
+    constexpr Maker load_makers[] = {DeadLoads::make, make_pressure, Gravity::make};
   } // namespace
 
 

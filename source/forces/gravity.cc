@@ -40,9 +40,28 @@ namespace Supple
   }
 
 
+  /** M g with the mass that the body has: of quadratic cells a consistent one has negative row sums
+   * at the vertices, so that masses of nodes say little of an acceleration that varies. */
+  void
+  Gravity::set_quadratic_weight(Vector &to, const double time) const
+  {
+    Vector g;
+    body.initialize(g);
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      for (unsigned int i = 0; i < 3; ++i)
+        g.local_element(3 * node + i) = acceleration.value(body.position(node), time, i);
+    body.set_mass_product(to, g);
+  }
+
+
   void
   Gravity::set_weight(Vector &to, const double time) const
   {
+    if (body.is_quadratic())
+      {
+        set_quadratic_weight(to, time);
+        return;
+      }
     for (unsigned int node = 0; node < body.n_owned; ++node)
       for (unsigned int i = 0; i < 3; ++i)
         to.local_element(3 * node + i) =

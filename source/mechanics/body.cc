@@ -74,10 +74,13 @@ namespace Supple
     std::vector<Cell> known_cells;
     for (const LocalCell &cell : mesh.parts->cells)
       {
-        const bool touches_owned =
-          std::any_of(cell.nodes.begin(), cell.nodes.end(), [&](const unsigned int node) {
-            return node < n_owned;
-          });
+        const auto is_owned = [&](const unsigned int node) { return node < n_owned; };
+        bool touches_owned  = std::any_of(cell.nodes.begin(), cell.nodes.end(), is_owned);
+        if (is_quadratic() && !touches_owned)
+          {
+            const auto &middles = mesh.parts->cell_middles[cell.index];
+            touches_owned       = std::any_of(middles.begin(), middles.end(), is_owned);
+          }
         if (!touches_owned && !cell.owned)
           continue;
         IsotropicMaterial cell_is_of = material(cell.material_id);
@@ -91,6 +94,11 @@ namespace Supple
           }
         known_cells.push_back({cell.nodes, cell_is_of, cell.owned});
         cell_nodes.push_back(cell.nodes);
+        if (is_quadratic())
+          {
+            known_cells.back().middles = mesh.parts->cell_middles[cell.index];
+            cell_middles.push_back(known_cells.back().middles);
+          }
         cell_index.push_back(cell.index);
         serial_cell.push_back(cell.serial_cell);
         cell_owned.push_back(cell.owned);
@@ -102,7 +110,18 @@ namespace Supple
                                           parameters.lumped,
                                           parameters.vertex_mass,
                                           mesh.section,
-                                          n_threads);
+                                          n_threads,
+                                          is_quadratic());
+  }
+
+
+  std::vector<unsigned int>
+  Body::nodes_of_cell(const std::size_t cell) const
+  {
+    std::vector<unsigned int> nodes(cell_nodes[cell].begin(), cell_nodes[cell].end());
+    if (is_quadratic())
+      nodes.insert(nodes.end(), cell_middles[cell].begin(), cell_middles[cell].end());
+    return nodes;
   }
 
 

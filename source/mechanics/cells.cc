@@ -1,6 +1,7 @@
 #include <supple/mechanics/cells.h>
 
 #include <supple/base/memory.h>
+#include <supple/mechanics/quadratic_cells.h>
 
 #include <algorithm>
 #include <cmath>
@@ -73,7 +74,8 @@ namespace Supple
                const bool lumped_mass,
                const double vertex_mass,
                const Section &section,
-               const unsigned int n_threads)
+               const unsigned int n_threads,
+               const bool quadratic)
     : n_cells(cells.size())
     , n_owned(n_owned)
     , vertex_mass(vertex_mass)
@@ -87,8 +89,12 @@ namespace Supple
     resize_in_huge_pages(batches, (cells.size() + n_lanes - 1) / n_lanes);
     if (section.axisymmetric())
       hoops.resize(batches.size());
+    if (quadratic)
+      resize_in_huge_pages(ten_nodes, batches.size());
     for (std::size_t c = 0; c < n_cells; ++c)
       add_cell(c, cells[c]);
+    if (quadratic && any_is_curved())
+      find_curved_points();
     cut_into_chunks(n_threads);
   }
 
@@ -174,6 +180,81 @@ namespace Supple
         for (unsigned int a = 0; a < 3; ++a)
           hoops[number / n_lanes].nodal_radius[a][lane] = X[order[a]][0] / radius;
       }
+    if (is_quadratic())
+      add_middles(number, cell, order);
+  }
+
+
+  void
+  Cells::add_middles(const std::size_t number,
+                     const Cell &cell,
+                     const std::array<unsigned int, 4> &order)
+  {
+    constexpr std::array<std::array<unsigned int, 4>, 4> edge = {
+      {{{0, 0, 1, 2}}, {{0, 0, 3, 4}}, {{1, 3, 0, 5}}, {{2, 4, 5, 0}}}};
+    TenNodes &nodes = ten_nodes[number / n_lanes];
+    for (unsigned int a = 0; a < Quadratic::n_nodes; ++a)
+      {
+        const unsigned int v = order[Quadratic::corners[a][0]], w = order[Quadratic::corners[a][1]];
+        nodes[a][number % n_lanes] = v == w ? cell.nodes[v] : cell.middles[edge[v][w]];
+      }
+  }
+
+
+  bool
+  Cells::any_is_curved() const
+  {
+    constexpr double round_off = 1e-9; // of the edge
+    for (std::size_t c = 0; c < n_cells; ++c)
+      for (unsigned int a = 0; a < Quadratic::n_nodes; ++a)
+        {
+          const TenNodes &nodes = ten_nodes[c / n_lanes];
+          const auto place      = [&](const unsigned int node) {
+            return positions[nodes[node][c % n_lanes]];
+          };
+          const Vector3 v = place(
+                          Quadratic::node[Quadratic::corners[a][0]][Quadratic::corners[a][0]]),
+                        w = place(
+                          Quadratic::node[Quadratic::corners[a][1]][Quadratic::corners[a][1]]),
+                        x = place(a);
+          double off = 0., length = 0.;
+          for (unsigned int i = 0; i < 3; ++i)
+            {
+              off    = std::max(off, std::abs(x[i] - 0.5 * (v[i] + w[i])));
+              length = std::max(length, std::abs(v[i] - w[i]));
+            }
+          if (off > round_off * length)
+            return true;
+        }
+    return false;
+  }
+
+
+  void
+  Cells::find_curved_points()
+  {
+    resize_in_huge_pages(curved, batches.size());
+    for (std::size_t c = 0; c < n_cells; ++c)
+      {
+        const std::size_t b     = c / n_lanes;
+        const unsigned int lane = c % n_lanes;
+        std::array<Vector3, Quadratic::n_nodes> X;
+        for (unsigned int a = 0; a < Quadratic::n_nodes; ++a)
+          X[a] = positions[ten_nodes[b][a][lane]];
+        const auto corners      = Quadratic::at_points(X);
+        batches[b].volume[lane] = 0.;
+        for (unsigned int q = 0; q < Quadratic::n_points; ++q)
+          {
+            std::array<Vector3, 4> g;
+            // Corners that are sorted may be a mirrored cell.
+            const double weight       = 0.25 * std::abs(shape_gradients(corners[q], g));
+            curved[b][q].weight[lane] = weight;
+            batches[b].volume[lane] += weight;
+            for (unsigned int k = 0; k < 4; ++k)
+              for (unsigned int i = 0; i < 3; ++i)
+                curved[b][q].gradients[k][i][lane] = g[k][i];
+          }
+      }
   }
 
 
@@ -211,6 +292,25 @@ namespace Supple
   }
 
 
+  double
+  Cells::share_of_pair(const unsigned int a, const unsigned int c) const
+  {
+    if (!lumped_mass)
+      return Quadratic::product(a, c);
+    return a == c ? Quadratic::share(a, true) : 0.;
+  }
+
+
+  Pack
+  Cells::vertex_mass_entry(const std::size_t b, const bool diagonal) const
+  {
+    // Consistent: that of linear cells. Lumped: s_v + 3 s_e/4 and s_e/4 with the shares of vertices
+    // and middles.
+    const double share = lumped_mass ? (diagonal ? 5. / 36. : 1. / 27.) : (diagonal ? 0.1 : 0.05);
+    return share * batches[b].density * batches[b].volume;
+  }
+
+
   Cells::NodalPack
   Cells::mass_product(const std::size_t b, const NodalPack &values) const
   {
@@ -221,8 +321,19 @@ namespace Supple
   void
   Cells::add_mass_product(const double *w, double *y) const
   {
-    for_batches_in_turn(
-      [&](const std::size_t b) { scatter(batches[b], mass_product(b, gather(batches[b], w)), y); });
+    if (is_quadratic())
+      for_batches_in_turn([&](const std::size_t b) {
+        const Pack mass = batches[b].density * batches[b].volume;
+        Quadratic::scatter(ten_nodes[b],
+                           Quadratic::mass_product(mass,
+                                                   lumped_mass,
+                                                   Quadratic::gather(ten_nodes[b], w)),
+                           y);
+      });
+    else
+      for_batches_in_turn([&](const std::size_t b) {
+        scatter(batches[b], mass_product(b, gather(batches[b], w)), y);
+      });
     if (vertex_mass > 0.)
       for (std::size_t dof = 0; dof < 3 * positions.size(); ++dof)
         y[dof] += vertex_mass * w[dof];
@@ -233,9 +344,16 @@ namespace Supple
   Cells::add_load(const double *force_density, double *force) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
-      scatter(batches[b],
-              integral(b, batches[b].volume, false, gather(batches[b], force_density)),
-              force);
+      if (is_quadratic())
+        Quadratic::scatter(ten_nodes[b],
+                           Quadratic::mass_product(batches[b].volume,
+                                                   false,
+                                                   Quadratic::gather(ten_nodes[b], force_density)),
+                           force);
+      else
+        scatter(batches[b],
+                integral(b, batches[b].volume, false, gather(batches[b], force_density)),
+                force);
   }
 
 
@@ -243,36 +361,57 @@ namespace Supple
   Cells::add_nodal_mass(double *mass) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
-      for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int a = 0; a < (is_quadratic() ? Quadratic::n_nodes : n_nodes); ++a)
         {
-          const Pack share = nodal_share(b, a) * batches[b].density * batches[b].volume;
+          const Pack part =
+            is_quadratic() ? Pack(Quadratic::share(a, lumped_mass)) : nodal_share(b, a);
+          const Pack share  = part * batches[b].density * batches[b].volume;
+          const auto &nodes = is_quadratic() ? ten_nodes[b][a] : batches[b].nodes[a];
           for (unsigned int lane = 0; lane < n_lanes; ++lane)
-            mass[batches[b].nodes[a][lane]] += share[lane];
+            mass[nodes[lane]] += share[lane];
         }
     for (std::size_t node = 0; node < positions.size(); ++node)
       mass[node] += vertex_mass;
   }
 
 
+  namespace
+  {
+    /** M += what a batch adds at these places. */
+    template <class Slot, class Entry>
+    void
+    add_entries(const Slot &slot, const Entry &entry, std::vector<double> &to)
+    {
+      for (unsigned int lane = 0; lane < n_lanes; ++lane)
+        to[slot[lane]] += entry[lane];
+    }
+  } // namespace
+
+
   void
   Cells::add_mass(const CellSlots &slots, SymmetricScalarMatrix &M) const
   {
     for (std::size_t b = 0; b < batches.size(); ++b)
-      {
-        for (unsigned int a = 0; a < 4; ++a)
-          {
-            const Pack entry = mass_entry(b, a, a);
-            for (unsigned int lane = 0; lane < n_lanes; ++lane)
-              M.diagonal[slots.diagonal(b)[a][lane]] += entry[lane];
-          }
-        for (unsigned int p = 0; p < 6; ++p)
-          {
-            const auto &[row, column] = CellSlots::lower_pairs[p];
-            const Pack entry          = mass_entry(b, row, column);
-            for (unsigned int lane = 0; lane < n_lanes; ++lane)
-              M.lower[slots.lower(b)[p][lane]] += entry[lane];
-          }
-      }
+      if (is_quadratic())
+        {
+          const CellSlots::QuadraticPlaces &places = slots.quadratic(b);
+          for (unsigned int a = 0, p = 0; a < Quadratic::n_nodes; ++a)
+            {
+              add_entries(places.diagonal[a], mass_entry(b, a, a), M.diagonal);
+              for (unsigned int c = 0; c < a; ++c, ++p)
+                add_entries(places.lower[p], mass_entry(b, a, c), M.lower);
+            }
+        }
+      else
+        {
+          for (unsigned int a = 0; a < 4; ++a)
+            add_entries(slots.diagonal(b)[a], mass_entry(b, a, a), M.diagonal);
+          for (unsigned int p = 0; p < 6; ++p)
+            {
+              const auto &[row, column] = CellSlots::lower_pairs[p];
+              add_entries(slots.lower(b)[p], mass_entry(b, row, column), M.lower);
+            }
+        }
     for (unsigned int node = 0; node < n_owned; ++node)
       M.diagonal[node] += vertex_mass;
   }
@@ -308,6 +447,33 @@ namespace Supple
 
   CellSlots::CellSlots(const Cells &cells, const SymmetricPattern &pattern)
   {
+    if (cells.is_quadratic())
+      find_quadratic_places(cells, pattern);
+    else
+      find_places(cells,
+                  pattern,
+                  [&](const std::size_t b, const unsigned int a, const unsigned int lane) {
+                    return cells.batch(b).nodes[a][lane];
+                  });
+  }
+
+
+  CellSlots::CellSlots(const Cells &cells,
+                       const SymmetricPattern &pattern,
+                       const std::vector<std::uint32_t> &vertex)
+  {
+    find_places(cells,
+                pattern,
+                [&](const std::size_t b, const unsigned int a, const unsigned int lane) {
+                  return vertex[cells.batch(b).nodes[a][lane]];
+                });
+  }
+
+
+  template <class Number>
+  void
+  CellSlots::find_places(const Cells &cells, const SymmetricPattern &pattern, const Number &number)
+  {
     resize_in_huge_pages(places, cells.n_batches());
     const std::vector<std::size_t> &chunk_starts = cells.chunk_starts();
     std::size_t chunk                            = 0;
@@ -318,20 +484,66 @@ namespace Supple
             ++chunk;
           const std::size_t spare = chunk / 2; // that of its thread
           const bool empty        = b * n_lanes + lane >= cells.n_cells;
-          const auto node   = [&](const unsigned int a) { return cells.batch(b).nodes[a][lane]; };
+          const auto node         = [&](const unsigned int a) { return number(b, a, lane); };
           const auto exists = [&](const unsigned int a) { return !empty && a < cells.n_nodes; };
           for (unsigned int a = 0; a < 4; ++a)
             places[b].diagonal[a][lane] =
               exists(a) && node(a) < pattern.n_owned ? node(a) : pattern.n_owned + spare;
           for (unsigned int p = 0; p < 6; ++p)
-            {
-              std::uint32_t &place = places[b].lower[p][lane];
-              place                = exists(lower_pairs[p][0])
-                                       ? pattern.position(node(lower_pairs[p][0]), node(lower_pairs[p][1]))
-                                       : pattern.n_entries();
-              if (place == pattern.n_entries())
-                place += spare;
-            }
+            places[b].lower[p][lane] =
+              exists(lower_pairs[p][0])
+                ? place_of_pair(pattern, node(lower_pairs[p][0]), node(lower_pairs[p][1]), spare)
+                : pattern.n_entries() + spare;
         }
+  }
+
+
+  std::uint32_t
+  CellSlots::place_of_pair(const SymmetricPattern &pattern,
+                           const std::uint32_t node,
+                           const std::uint32_t other,
+                           const std::size_t spare)
+  {
+    const std::size_t place = pattern.position(std::max(node, other), std::min(node, other));
+    return place == pattern.n_entries() ? place + spare : place;
+  }
+
+
+  void
+  CellSlots::find_quadratic_places(const Cells &cells, const SymmetricPattern &pattern)
+  {
+    static_assert(n_lanes <= 8, "a bit for each lane");
+    resize_in_huge_pages(quadratic_places, cells.n_batches());
+    const std::vector<std::size_t> &chunk_starts = cells.chunk_starts();
+    std::size_t chunk                            = 0;
+    for (std::size_t b = 0; b < quadratic_places.size(); ++b)
+      {
+        while (b >= chunk_starts[chunk + 1])
+          ++chunk;
+        const std::size_t spare = chunk / 2; // that of its thread
+        QuadraticPlaces &of     = quadratic_places[b];
+        of.transposed.fill(0);
+        of.any_transposed = false;
+        for (unsigned int lane = 0; lane < n_lanes; ++lane)
+          {
+            const bool empty = b * n_lanes + lane >= cells.n_cells;
+            const auto node  = [&](const unsigned int a) { return cells.nodes_of(b)[a][lane]; };
+            for (unsigned int a = 0, p = 0; a < Quadratic::n_nodes; ++a)
+              {
+                of.diagonal[a][lane] =
+                  !empty && node(a) < pattern.n_owned ? node(a) : pattern.n_owned + spare;
+                for (unsigned int c = 0; c < a; ++c, ++p)
+                  {
+                    of.lower[p][lane] = empty ? pattern.n_entries() + spare
+                                              : place_of_pair(pattern, node(a), node(c), spare);
+                    if (!empty && node(a) < node(c))
+                      {
+                        of.transposed[p] |= 1u << lane;
+                        of.any_transposed = true;
+                      }
+                  }
+              }
+          }
+      }
   }
 } // namespace Supple

@@ -54,11 +54,12 @@ namespace Supple
     }
 
 
+    /** Of a cell at each of its points. */
     PackOf
-    entries_of(CellRotations::List &rotations)
+    entries_of(CellRotations::List &rotations, const unsigned int n_points)
     {
-      return [&rotations](const std::size_t b, const unsigned int k) -> Pack & {
-        return rotations[b].entries[k];
+      return [&rotations, n_points](const std::size_t b, const unsigned int k) -> Pack & {
+        return rotations[n_points * b + k / 9].entries[k % 9];
       };
     }
 
@@ -153,7 +154,8 @@ namespace Supple
   {
     nlohmann::json saved = nlohmann::json::object();
     if (CellRotations::List kept = rotations.kept; !kept.empty())
-      saved["kept_rotations"] = gathered(body, 9, entries_of(kept));
+      saved["kept_rotations"] =
+        gathered(body, 9 * body.cells->n_points(), entries_of(kept, body.cells->n_points()));
     if (const unsigned int n = law.n_internal_variables(); n > 0)
       {
         std::vector<Pack> values    = internal;
@@ -169,8 +171,12 @@ namespace Supple
     rotations.kept.clear();
     if (saved.contains("kept_rotations"))
       {
-        rotations.kept.assign(body.cells->n_batches(), Matrix3<Pack>::identity());
-        scatter(body, saved.at("kept_rotations"), 9, entries_of(rotations.kept));
+        const unsigned int n_points = body.cells->n_points();
+        rotations.kept.assign(n_points * body.cells->n_batches(), Matrix3<Pack>::identity());
+        scatter(body,
+                saved.at("kept_rotations"),
+                9 * n_points,
+                entries_of(rotations.kept, n_points));
       }
     if (const unsigned int n = law.n_internal_variables(); n > 0)
       scatter(body, saved.at("internal_variables"), n, numbers_of(internal, n));

@@ -2,6 +2,7 @@
 
 #include <supple/mechanics/corotational.h>
 #include <supple/mechanics/law_sweeps.h>
+#include <supple/mechanics/quadratic_sweeps.h>
 
 #include <map>
 
@@ -15,6 +16,8 @@ namespace Supple
     std::unique_ptr<Law>
     make(const RotationMethod rotation, const Cells &cells)
     {
+      if (cells.is_quadratic())
+        return std::make_unique<QuadraticSweeps<Formulas>>(Formulas{rotation}, cells);
       return std::make_unique<LawSweeps<Formulas>>(Formulas{rotation}, cells);
     }
 

@@ -182,7 +182,7 @@ namespace Supple
   }
 
 
-  std::vector<std::array<unsigned int, 3>>
+  Faces
   Selection::boundary_faces(const std::vector<std::string> &boundaries,
                             const std::string &origin) const
   {
@@ -190,10 +190,15 @@ namespace Supple
     for (const std::string &boundary : boundaries)
       boundary_ids.push_back(boundary_id(boundary, origin));
 
-    std::vector<std::array<unsigned int, 3>> faces;
-    for (const LocalFace &face : body.mesh.parts->faces)
-      if (std::count(boundary_ids.begin(), boundary_ids.end(), face.boundary_id) > 0)
-        faces.push_back(face.nodes);
+    Faces faces;
+    const DistributedMesh &parts = *body.mesh.parts;
+    for (std::size_t f = 0; f < parts.faces.size(); ++f)
+      if (std::count(boundary_ids.begin(), boundary_ids.end(), parts.faces[f].boundary_id) > 0)
+        {
+          faces.corners.push_back(parts.faces[f].nodes);
+          if (parts.is_quadratic())
+            faces.middles.push_back(parts.face_middles[f]);
+        }
     return faces;
   }
 
@@ -206,10 +211,16 @@ namespace Supple
     // A face is seen by the process that owns its cell; its nodes may be owned by another one.
     Vector marked;
     body.initialize(marked);
-    for (const LocalFace &face : body.mesh.parts->faces)
-      if (face.owned && face.boundary_id == id)
-        for (const unsigned int node : face.nodes)
-          marked.local_element(3 * node) = 1.;
+    const DistributedMesh &parts = *body.mesh.parts;
+    for (std::size_t f = 0; f < parts.faces.size(); ++f)
+      if (parts.faces[f].owned && parts.faces[f].boundary_id == id)
+        {
+          for (const unsigned int node : parts.faces[f].nodes)
+            marked.local_element(3 * node) = 1.;
+          if (parts.is_quadratic())
+            for (const unsigned int node : parts.face_middles[f])
+              marked.local_element(3 * node) = 1.;
+        }
     marked.compress(VectorOperation::add);
 
     const GhostValues values(marked);

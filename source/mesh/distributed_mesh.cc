@@ -90,6 +90,68 @@ namespace Supple
     }
 
 
+    /** What own nodes of quadratic cells are sorted by. */
+    using EdgeKey = std::array<unsigned int, 2>;
+
+
+    /** The place of each vertex in the order in which cells come upon them. */
+    std::vector<unsigned int>
+    order_of_vertices(const SerialMesh &mesh)
+    {
+      std::vector<unsigned int> place(mesh.vertices.size(), numbers::invalid_unsigned_int);
+      unsigned int n = 0;
+      for (const auto &cell : mesh.cells)
+        for (const unsigned int vertex : cell)
+          if (place[vertex] == numbers::invalid_unsigned_int)
+            place[vertex] = n++;
+      return place;
+    }
+
+
+    /** Calls visit(v, w, object) for each vertex, v = w, and each edge of each cell, with what
+     * deal.II has the degrees of freedom of. */
+    template <int dim, class Visit>
+    void
+    for_nodes_of_cells(const DoFHandler<dim, 3> &dof_handler, const Visit &visit)
+    {
+      for (const auto &cell : dof_handler.active_cell_iterators())
+        {
+          for (const unsigned int a : cell->vertex_indices())
+            visit(cell->vertex_index(a), cell->vertex_index(a), [&](const unsigned int i) {
+              return cell->vertex_dof_index(a, i);
+            });
+          if (dof_handler.get_fe().n_dofs_per_line() > 0)
+            for (const unsigned int l : cell->line_indices())
+              visit(cell->line(l)->vertex_index(0),
+                    cell->line(l)->vertex_index(1),
+                    [&](const unsigned int i) { return cell->line(l)->dof_index(i); });
+        }
+    }
+
+
+    /** Numbers own nodes by the vertices of their edges. */
+    template <int dim>
+    void
+    sort_nodes(DoFHandler<dim, 3> &dof_handler, const SerialMesh &mesh)
+    {
+      const std::vector<unsigned int> place = order_of_vertices(mesh);
+      const IndexSet owned                  = dof_handler.locally_owned_dofs();
+      std::vector<std::pair<EdgeKey, std::array<types::global_dof_index, 3>>> nodes;
+      for_nodes_of_cells(dof_handler, [&](const auto v, const auto w, const auto &dof) {
+        const EdgeKey key = {{std::min(place[v], place[w]), std::max(place[v], place[w])}};
+        if (owned.is_element(dof(0)))
+          nodes.push_back({key, {{dof(0), dof(1), dof(2)}}});
+      });
+      std::sort(nodes.begin(), nodes.end());
+      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      std::vector<types::global_dof_index> number(owned.n_elements());
+      for (std::size_t n = 0; n < nodes.size(); ++n)
+        for (unsigned int i = 0; i < 3; ++i)
+          number[owned.index_within_set(nodes[n].second[i])] = owned.nth_index_in_set(3 * n + i);
+      dof_handler.renumber_dofs(number);
+    }
+
+
     Point<3>
     center(const SerialMesh &mesh, const std::size_t cell)
     {
@@ -104,67 +166,79 @@ namespace Supple
   DistributedMesh::DistributedMesh(const MeshPart &part, const MPI_Comm communicator)
     : dimension(part.mesh.dimension)
   {
-    const std::vector<unsigned int> node_of =
+    const Numbers numbers =
       dimension == 2 ? number_nodes<2>(part, communicator) : number_nodes<3>(part, communicator);
     n_owned = partitioner->locally_owned_size() / 3;
     n_local = n_owned + partitioner->n_ghost_indices() / 3;
     n_cells = part.mesh.cells.size();
-    collect_nodes(part, node_of);
-    collect_cells(part, node_of);
-    collect_faces(part, node_of);
+    collect_nodes(part, numbers);
+    collect_cells(part, numbers);
+    collect_faces(part, numbers);
     if (part.n_patches > 0)
       find_patch_partitioner(part.n_patches, communicator);
   }
 
 
   template <int dim>
-  std::vector<unsigned int>
+  DistributedMesh::Numbers
   DistributedMesh::number_nodes(const MeshPart &part, const MPI_Comm communicator)
   {
     const std::unique_ptr<Triangulation<dim, 3>> mesh = triangulate<dim>(part, communicator);
+    const bool quadratic                              = !part.mesh.middles.empty();
     DoFHandler<dim, 3> dof_handler(*mesh);
-    dof_handler.distribute_dofs(FESystem<dim, 3>(FE_SimplexP<dim, 3>(1), 3));
+    dof_handler.distribute_dofs(FESystem<dim, 3>(FE_SimplexP<dim, 3>(quadratic ? 2 : 1), 3));
+    if (quadratic)
+      sort_nodes(dof_handler, part.mesh);
     partitioner =
       std::make_shared<Utilities::MPI::Partitioner>(dof_handler.locally_owned_dofs(),
                                                     Compatibility::locally_relevant_dofs(
                                                       dof_handler),
                                                     communicator);
 
-    std::vector<unsigned int> node_of(part.mesh.vertices.size());
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      for (const unsigned int a : cell->vertex_indices())
-        {
-          std::array<unsigned int, 3> numbers;
-          for (unsigned int i = 0; i < 3; ++i)
-            numbers[i] = partitioner->global_to_local(cell->vertex_dof_index(a, i));
-          // The rest of the program counts on three numbers in a row for each vertex.
-          AssertThrow(numbers[0] % 3 == 0 && numbers[1] == numbers[0] + 1 &&
-                        numbers[2] == numbers[0] + 2,
-                      ExcInternalError());
-          node_of[cell->vertex_index(a)] = numbers[0] / 3;
-        }
-    return node_of;
+    Numbers node;
+    node.of_vertices.resize(part.mesh.vertices.size());
+    node.of_middles.resize(part.mesh.middles.size());
+    for_nodes_of_cells(dof_handler, [&](const auto v, const auto w, const auto &dof) {
+      std::array<unsigned int, 3> numbers;
+      for (unsigned int i = 0; i < 3; ++i)
+        numbers[i] = partitioner->global_to_local(dof(i));
+      // The rest of the program counts on three numbers in a row for each node.
+      AssertThrow(numbers[0] % 3 == 0 && numbers[1] == numbers[0] + 1 &&
+                    numbers[2] == numbers[0] + 2,
+                  ExcInternalError());
+      (v == w ? node.of_vertices[v] : node.of_middles[part.mesh.middle(v, w)]) = numbers[0] / 3;
+    });
+    return node;
   }
 
 
   void
-  DistributedMesh::collect_nodes(const MeshPart &part, const std::vector<unsigned int> &node_of)
+  DistributedMesh::collect_nodes(const MeshPart &part, const Numbers &numbers)
   {
     positions.resize(n_local);
     serial_vertex.resize(n_local);
     parts.resize(n_local);
-    for (std::size_t v = 0; v < node_of.size(); ++v)
-      {
-        for (unsigned int d = 0; d < 3; ++d)
-          positions[node_of[v]][d] = part.mesh.vertices[v][d];
-        serial_vertex[node_of[v]] = part.serial_vertex[v];
-        parts[node_of[v]]         = part.mesh.parts[v];
-      }
+    const auto set = [&](const unsigned int node,
+                         const Point<3> &place,
+                         const unsigned int serial,
+                         const unsigned int of_body) {
+      for (unsigned int d = 0; d < 3; ++d)
+        positions[node][d] = place[d];
+      serial_vertex[node] = serial;
+      parts[node]         = of_body;
+    };
+    for (std::size_t v = 0; v < numbers.of_vertices.size(); ++v)
+      set(numbers.of_vertices[v], part.mesh.vertices[v], part.serial_vertex[v], part.mesh.parts[v]);
+    for (std::size_t m = 0; m < numbers.of_middles.size(); ++m)
+      set(numbers.of_middles[m],
+          part.mesh.middles[m].place,
+          part.serial_middle[m],
+          part.mesh.middles[m].part);
   }
 
 
   void
-  DistributedMesh::collect_cells(const MeshPart &part, const std::vector<unsigned int> &node_of)
+  DistributedMesh::collect_cells(const MeshPart &part, const Numbers &numbers)
   {
     const unsigned int rank = Utilities::MPI::this_mpi_process(partitioner->get_mpi_communicator());
     cells.reserve(n_cells);
@@ -173,19 +247,26 @@ namespace Supple
         const auto vertices = part.mesh.cell_vertices(c);
         LocalCell cell;
         for (unsigned int a = 0; a < 4; ++a)
-          cell.nodes[a] = node_of[vertices[std::min(a, dimension)]];
+          cell.nodes[a] = numbers.of_vertices[vertices[std::min(a, dimension)]];
         cell.material_id = part.mesh.materials[c];
         cell.index       = c;
         cell.serial_cell = part.serial_cell[c];
         cell.patch       = part.mesh.patches.empty() ? 0 : part.mesh.patches[c];
         cell.owned       = part.owner[c] == rank;
         cells.push_back(cell);
+        if (part.mesh.middles.empty())
+          continue;
+        cell_middles.emplace_back();
+        for (unsigned int e = 0; e < 6; ++e)
+          cell_middles.back()[e] =
+            numbers.of_middles[part.mesh.middle(vertices[tetrahedron_edges[e][0]],
+                                                vertices[tetrahedron_edges[e][1]])];
       }
   }
 
 
   void
-  DistributedMesh::collect_faces(const MeshPart &part, const std::vector<unsigned int> &node_of)
+  DistributedMesh::collect_faces(const MeshPart &part, const Numbers &numbers)
   {
     for (const SerialMesh::BoundaryFace &of_part : part.mesh.boundary)
       {
@@ -193,17 +274,27 @@ namespace Supple
         std::vector<Point<3>> x;
         for (const unsigned int vertex : part.mesh.face_vertices(of_part))
           {
-            face.nodes[x.size()] = node_of[vertex];
+            face.nodes[x.size()] = numbers.of_vertices[vertex];
             x.push_back(part.mesh.vertices[vertex]);
           }
+        std::array<unsigned int, 3> corners = of_part.vertices;
         if (normal_direction(x) * (center(part.mesh, of_part.cell) - x[0]) > 0.)
-          std::swap(face.nodes[dimension - 2], face.nodes[dimension - 1]);
+          {
+            std::swap(face.nodes[dimension - 2], face.nodes[dimension - 1]);
+            std::swap(corners[dimension - 2], corners[dimension - 1]);
+          }
         if (dimension == 2)
           face.nodes[2] = face.nodes[1];
         face.boundary_id = of_part.boundary_id;
         face.cell_index  = of_part.cell;
         face.owned       = cells[of_part.cell].owned;
         faces.push_back(face);
+        if (part.mesh.middles.empty())
+          continue;
+        face_middles.emplace_back();
+        for (unsigned int e = 0; e < 3; ++e)
+          face_middles.back()[e] =
+            numbers.of_middles[part.mesh.middle(corners[e], corners[(e + 1) % 3])];
       }
   }
 

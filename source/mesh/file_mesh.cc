@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 
 namespace Supple
 {
@@ -15,14 +16,26 @@ namespace Supple
   {
     using Element = FileMesh::Element;
 
+    /** The numbers of nodes in the middles of edges. */
+    std::set<std::size_t>
+    middles_of(const FileMesh &file)
+    {
+      std::set<std::size_t> numbers;
+      for (const auto &[ends, number] : file.middles)
+        numbers.insert(number);
+      return numbers;
+    }
+
+
     /** The places of vertices in the list of vertices, by their numbers in the file. */
     class Positions
     {
     public:
-      explicit Positions(const FileMesh &file)
+      Positions(const FileMesh &file, const std::set<std::size_t> &middles)
       {
         for (const auto &[number, place] : file.vertices)
-          numbers.push_back(number);
+          if (middles.count(number) == 0)
+            numbers.push_back(number);
       }
 
       /** @throws InputError if an element names a vertex that is not there */
@@ -32,7 +45,8 @@ namespace Supple
         const auto found = std::lower_bound(numbers.begin(), numbers.end(), number);
         if (found == numbers.end() || *found != number)
           throw InputError("an element has the node " + std::to_string(number) +
-                           ", which is not in the file.");
+                           ", which is not in the file, or is the middle of an edge of another "
+                           "element.");
         return found - numbers.begin();
       }
 
@@ -71,10 +85,10 @@ namespace Supple
     {
       if (!file.others[dimension].empty())
         throw InputError("it has cells that are not linear " +
-                         std::string(dimension == 3 ? "tetrahedra" : "triangles") + ": " +
-                         in_words(file.others[dimension]) +
-                         ". Mesh the body with tetrahedra (in the plane: triangles) of order 1 "
-                         "alone.");
+                         std::string(dimension == 3 ? "or quadratic tetrahedra" : "triangles") +
+                         ": " + in_words(file.others[dimension]) +
+                         ". Mesh the body with tetrahedra of order 1 or 2 alone, in the plane with "
+                         "triangles of order 1.");
     }
 
 
@@ -85,6 +99,10 @@ namespace Supple
       refuse_other_cells(file, 3);
       if (!file.elements[3].empty())
         return 3;
+      if (file.n_quadratic_triangles > 0)
+        throw InputError("it has no tetrahedra, and " + std::to_string(file.n_quadratic_triangles) +
+                         " of the kind Triangle 6. Mesh a body in the plane with triangles of "
+                         "order 1.");
       refuse_other_cells(file, 2);
       if (!file.elements[2].empty() && is_flat(file))
         return 2;
@@ -168,6 +186,41 @@ namespace Supple
     }
 
 
+    /** Where the edges of all cells have a node in the middle, or none has. */
+    void
+    add_middles(SerialMesh &mesh, const FileMesh &file, const Positions &position)
+    {
+      if (file.middles.empty())
+        return;
+      for (const auto &[ends, number] : file.middles)
+        {
+          const auto place = file.vertices.find(number);
+          if (place == file.vertices.end())
+            throw InputError("an element has the node " + std::to_string(number) +
+                             ", which is not in the file.");
+          std::array<unsigned int, 2> of_mesh = {{position(ends[0]), position(ends[1])}};
+          std::sort(of_mesh.begin(), of_mesh.end());
+          mesh.middles.push_back({of_mesh, place->second});
+        }
+      std::sort(mesh.middles.begin(), mesh.middles.end(), [](const auto &a, const auto &b) {
+        return a.ends < b.ends;
+      });
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        for (const auto &[a, b] : tetrahedron_edges)
+          try
+            {
+              mesh.middle(mesh.cells[c][a], mesh.cells[c][b]);
+            }
+          catch (const std::out_of_range &)
+            {
+              throw InputError(
+                "it has both linear and quadratic tetrahedra; the first linear one is "
+                "cell " +
+                std::to_string(c) + ". Mesh the body with one order alone.");
+            }
+    }
+
+
     void
     add_boundary(SerialMesh &mesh, const FileMesh &file, const Positions &position)
     {
@@ -229,6 +282,41 @@ namespace Supple
   } // namespace
 
 
+  void
+  add_quadratic(FileMesh &mesh,
+                FileMesh::Element element,
+                const std::vector<std::size_t> &nodes,
+                const NodeOrder order)
+  {
+    // For each place of VTK's order that of the format.
+    using Places                      = std::array<unsigned int, 10>;
+    constexpr Places vtk              = {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}};
+    constexpr Places gmsh             = {{0, 1, 2, 3, 4, 5, 6, 7, 9, 8}};
+    constexpr Places ideas            = {{0, 2, 4, 9, 1, 3, 5, 6, 7, 8}};
+    constexpr unsigned int ends[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
+    const bool solid                  = nodes.size() == 10;
+    for (unsigned int a = 0; a < (solid ? 4 : 3); ++a)
+      element.vertices[a] = nodes[order == NodeOrder::universal ? ideas[a] : a];
+    mesh.elements[solid ? 3 : 2].push_back(element);
+    mesh.n_quadratic_triangles += !solid;
+    if (!solid)
+      return;
+    const Places &places = order == NodeOrder::vtk ? vtk : order == NodeOrder::gmsh ? gmsh : ideas;
+    for (unsigned int e = 0; e < 6; ++e)
+      {
+        std::array<std::size_t, 2> edge = {
+          {element.vertices[ends[e][0]], element.vertices[ends[e][1]]}};
+        std::sort(edge.begin(), edge.end());
+        const std::size_t node     = nodes[places[4 + e]];
+        const auto [found, is_new] = mesh.middles.emplace(edge, node);
+        if (!is_new && found->second != node)
+          throw InputError("the edge between the nodes " + std::to_string(edge[0]) + " and " +
+                           std::to_string(edge[1]) + " has two nodes in its middle, " +
+                           std::to_string(found->second) + " and " + std::to_string(node) + ".");
+      }
+  }
+
+
   std::size_t
   announced(const std::string &word, const std::string &of)
   {
@@ -259,12 +347,15 @@ namespace Supple
   body_of(const FileMesh &file)
   {
     SerialMesh mesh;
-    mesh.dimension = dimension_of(file);
-    mesh.warnings  = file.warnings;
+    mesh.dimension                      = dimension_of(file);
+    mesh.warnings                       = file.warnings;
+    const std::set<std::size_t> middles = middles_of(file);
     for (const auto &[number, vertex] : file.vertices)
-      mesh.vertices.emplace_back(vertex[0], vertex[1], mesh.dimension == 2 ? 0. : vertex[2]);
-    const Positions position(file);
+      if (middles.count(number) == 0)
+        mesh.vertices.emplace_back(vertex[0], vertex[1], mesh.dimension == 2 ? 0. : vertex[2]);
+    const Positions position(file, middles);
     add_cells(mesh, file, position);
+    add_middles(mesh, file, position);
     add_boundary(mesh, file, position);
     mesh.material_names = unique_names(mesh, file.names[mesh.dimension]);
     mesh.boundary_names = unique_names(mesh, file.names[mesh.dimension - 1]);

@@ -13,7 +13,7 @@ namespace Supple
 {
   namespace
   {
-    constexpr int gmsh_point = 15;
+    constexpr int gmsh_point = 15, gmsh_triangle_6 = 9, gmsh_tetrahedron_10 = 11;
 
     /** Gmsh's library is a global thing: it is there while one of these lives. */
     class GmshSession
@@ -100,6 +100,15 @@ namespace Supple
       std::vector<double> local_coordinates;
       gmsh::model::mesh::getElementProperties(
         type, name, dimension, order, n_nodes, local_coordinates, n_primary_nodes);
+      if (type == gmsh_triangle_6 || type == gmsh_tetrahedron_10)
+        {
+          for (std::size_t e = 0; e < tags.size(); ++e)
+            add_quadratic(mesh,
+                          {tags[e], {}, groups},
+                          {nodes.begin() + n_nodes * e, nodes.begin() + n_nodes * (e + 1)},
+                          NodeOrder::gmsh);
+          return;
+        }
       if (order != 1 || n_nodes != dimension + 1)
         {
           mesh.others[dimension][name] += tags.size();

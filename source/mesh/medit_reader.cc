@@ -147,24 +147,28 @@ namespace Supple
     std::size_t
     read_elements(FileMesh &mesh, Words &words, const Kind &kind)
     {
-      const std::size_t n = words.count(kind.keyword);
-      if (!kind.other.empty() && n > 0)
+      const std::size_t n  = words.count(kind.keyword);
+      const bool quadratic = kind.keyword == "trianglesp2" || kind.keyword == "tetrahedrap2";
+      if (!kind.other.empty() && !quadratic && n > 0)
         mesh.others[kind.dimension][kind.other] += n;
       std::size_t n_negative = 0;
       for (std::size_t e = 1; e <= n; ++e)
         {
           FileMesh::Element element{e, {}, {}};
+          std::vector<std::size_t> nodes;
           for (unsigned int v = 0; v < kind.n_vertices; ++v)
             {
-              const std::size_t vertex = words.count(kind.keyword);
+              nodes.push_back(words.count(kind.keyword));
               if (v < element.vertices.size())
-                element.vertices[v] = vertex;
+                element.vertices[v] = nodes[v];
             }
           const double reference = words.number(kind.keyword);
           if (reference > 0.)
             element.ids.push_back(id_of(reference));
           n_negative += reference < 0.;
-          if (kind.other.empty())
+          if (quadratic)
+            add_quadratic(mesh, element, nodes, NodeOrder::vtk);
+          else if (kind.other.empty())
             mesh.elements[kind.dimension].push_back(element);
         }
       words.require_end(kind.keyword, n);

@@ -1,6 +1,7 @@
 #include <supple/mesh/mesh.h>
 
 #include <supple/base/first_process.h>
+#include <supple/mesh/edge_middles.h>
 #include <supple/mesh/partition.h>
 #include <supple/mesh/patches.h>
 #include <supple/mesh/whole_mesh.h>
@@ -24,6 +25,8 @@ namespace Supple
     double
     volume_of(const SerialMesh &mesh, const std::size_t cell, const Section &section)
     {
+      if (!mesh.middles.empty())
+        return quadratic_volume(mesh, cell);
       if (!section.plane())
         return mesh.volume(cell);
       double centroid = 0.;
@@ -44,6 +47,8 @@ namespace Supple
       add(mesh.vertices);
       add(mesh.cells);
       add(mesh.materials);
+      for (const auto &middle : mesh.middles)
+        sum.process_bytes(&middle.place, sizeof(middle.place));
       for (const auto &face : mesh.boundary)
         {
           add(face.vertices);
@@ -98,6 +103,7 @@ namespace Supple
   {
     n_cells      = mesh.cells.size();
     n_vertices   = mesh.vertices.size() - report.unused_vertices;
+    n_middles    = mesh.middles.size();
     bounding_box = box_around(mesh, mesh.vertices);
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
       {
@@ -118,6 +124,7 @@ namespace Supple
     const auto share = [&](auto &value) { value = Utilities::MPI::broadcast(communicator, value); };
     share(n_cells);
     share(n_vertices);
+    share(n_middles);
     share(volume);
     share(bounding_box);
     share(boundaries);
@@ -147,6 +154,6 @@ namespace Supple
   std::string
   Mesh::cell_name() const
   {
-    return section.plane() ? "triangles" : "tetrahedra";
+    return section.plane() ? "triangles" : is_quadratic() ? "quadratic tetrahedra" : "tetrahedra";
   }
 } // namespace Supple

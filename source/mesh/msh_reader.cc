@@ -27,6 +27,8 @@ namespace Supple
       std::string other; ///< its name if it is none of our elements
     };
 
+    constexpr long triangle_6 = 9, tetrahedron_10 = 11;
+
     const std::map<long, Kind> kinds = {{1, {1, 2, ""}},
                                         {2, {2, 3, ""}},
                                         {3, {2, 4, "Quadrilateral 4"}},
@@ -288,7 +290,8 @@ namespace Supple
             ++mesh.others[3]["number " + std::to_string(static_cast<long>(kind))];
             return;
           }
-        if (!found->second.other.empty())
+        if (!found->second.other.empty() && found->first != triangle_6 &&
+            found->first != tetrahedron_10)
           {
             if (found->second.dimension > 0)
               ++mesh.others[found->second.dimension][found->second.other];
@@ -299,10 +302,17 @@ namespace Supple
                            std::to_string(nodes.size()) + " nodes; there should be " +
                            std::to_string(found->second.n_nodes) + ".");
         FileMesh::Element element{static_cast<std::size_t>(std::max(number, 0.)), {}, {}};
-        std::transform(nodes.begin(), nodes.end(), element.vertices.begin(), whole);
         // A negative group means that the element is turned around.
         if (group != 0.)
           element.ids.push_back(id_of(std::abs(group)));
+        if (!found->second.other.empty())
+          {
+            std::vector<std::size_t> all(nodes.size());
+            std::transform(nodes.begin(), nodes.end(), all.begin(), whole);
+            add_quadratic(mesh, element, all, NodeOrder::gmsh);
+            return;
+          }
+        std::transform(nodes.begin(), nodes.end(), element.vertices.begin(), whole);
         mesh.elements[found->second.dimension].push_back(element);
       }
 

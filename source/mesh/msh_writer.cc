@@ -6,7 +6,13 @@ namespace Supple
 {
   namespace
   {
-    constexpr std::array<unsigned int, 4> kind_of_dimension = {{15, 1, 2, 4}};
+    /** By the number of nodes. */
+    unsigned int
+    kind_of_element(const std::size_t n_nodes)
+    {
+      constexpr std::array<unsigned int, 11> kinds = {{0, 15, 1, 2, 4, 0, 9, 0, 0, 0, 11}};
+      return kinds[n_nodes];
+    }
 
 
     void
@@ -27,21 +33,45 @@ namespace Supple
     }
 
 
-    /** @param n vertices */
-    template <class Vertices>
+    /** Numbers from 0 on: the vertices and, of quadratic cells, the middles of edges in Gmsh's
+     * order.
+     */
+    std::vector<unsigned int>
+    nodes_of(const SerialMesh &mesh, const dealii::ArrayView<const unsigned int> &vertices)
+    {
+      constexpr std::array<std::array<unsigned int, 2>, 6> edges = {
+        {{{0, 1}}, {{1, 2}}, {{0, 2}}, {{0, 3}}, {{2, 3}}, {{1, 3}}}};
+      std::vector<unsigned int> nodes(vertices.begin(), vertices.end());
+      if (!mesh.middles.empty())
+        for (unsigned int e = 0; e < (vertices.size() == 4 ? 6 : 3); ++e)
+          nodes.push_back(mesh.vertices.size() +
+                          mesh.middle(vertices[edges[e][0]], vertices[edges[e][1]]));
+      return nodes;
+    }
+
+
+    void
+    add_node(std::string &text, const std::size_t number, const dealii::Point<3> &place)
+    {
+      text += std::to_string(number);
+      for (unsigned int d = 0; d < 3; ++d)
+        text += " " + digits(place[d], all_digits);
+      text += "\n";
+    }
+
+
     void
     add_element(std::string &text,
                 const std::size_t number,
                 const unsigned int id,
-                const Vertices &vertices)
+                const std::vector<unsigned int> &nodes)
     {
       // The second tag, a number of Gmsh's own, must not be 0, and not larger than its integers.
       const unsigned int tag = id < 2147483647u ? id + 1 : 1;
-      text += std::to_string(number) + " " +
-              std::to_string(kind_of_dimension[vertices.size() - 1]) + " 2 " + std::to_string(id) +
-              " " + std::to_string(tag);
-      for (const unsigned int vertex : vertices)
-        text += " " + std::to_string(vertex + 1);
+      text += std::to_string(number) + " " + std::to_string(kind_of_element(nodes.size())) + " 2 " +
+              std::to_string(id) + " " + std::to_string(tag);
+      for (const unsigned int node : nodes)
+        text += " " + std::to_string(node + 1);
       text += "\n";
     }
   } // namespace
@@ -52,21 +82,19 @@ namespace Supple
   {
     std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
     add_names(text, mesh);
-    text += "$Nodes\n" + std::to_string(mesh.vertices.size()) + "\n";
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-      {
-        text += std::to_string(v + 1);
-        for (unsigned int d = 0; d < 3; ++d)
-          text += " " + digits(mesh.vertices[v][d], all_digits);
-        text += "\n";
-      }
+    text += "$Nodes\n" + std::to_string(mesh.vertices.size() + mesh.middles.size()) + "\n";
+    std::size_t number = 0;
+    for (const auto &vertex : mesh.vertices)
+      add_node(text, ++number, vertex);
+    for (const auto &middle : mesh.middles)
+      add_node(text, ++number, middle.place);
     text +=
       "$EndNodes\n$Elements\n" + std::to_string(mesh.boundary.size() + mesh.cells.size()) + "\n";
-    std::size_t number = 0;
+    number = 0;
     for (const SerialMesh::BoundaryFace &face : mesh.boundary)
-      add_element(text, ++number, face.boundary_id, mesh.face_vertices(face));
+      add_element(text, ++number, face.boundary_id, nodes_of(mesh, mesh.face_vertices(face)));
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-      add_element(text, ++number, mesh.materials[c], mesh.cell_vertices(c));
+      add_element(text, ++number, mesh.materials[c], nodes_of(mesh, mesh.cell_vertices(c)));
     return text + "$EndElements\n";
   }
 } // namespace Supple

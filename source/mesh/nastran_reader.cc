@@ -345,6 +345,14 @@ namespace Supple
         for (unsigned int v = n_vertices; v < most; ++v)
           if (!card.field(2 + v).empty())
             n_vertices = most;
+        if (kind == "Tetrahedron" && n_vertices == 10)
+          {
+            std::vector<std::size_t> nodes;
+            for (unsigned int v = 0; v < n_vertices; ++v)
+              nodes.push_back(card.whole_number(2 + v));
+            add_quadratic(mesh, element, nodes, NodeOrder::vtk);
+            return;
+          }
         if (n_vertices > dimension + 1)
           {
             ++mesh.others[dimension][kind + " " + std::to_string(n_vertices)];

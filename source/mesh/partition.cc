@@ -194,6 +194,8 @@ namespace Supple
           }
         for (const unsigned int cell : part.serial_cell)
           copy_cell(cell, part);
+        if (!mesh.middles.empty())
+          copy_middles(part);
         for (const unsigned int vertex : part.serial_vertex)
           number[vertex] = none;
         return part;
@@ -251,6 +253,26 @@ namespace Supple
         if (!mesh.patches.empty())
           part.mesh.patches.push_back(mesh.patches[cell]);
         part.owner.push_back(owner[cell]);
+      }
+
+      /** Those of the edges of its cells, in the order of the whole mesh. */
+      void
+      copy_middles(MeshPart &part) const
+      {
+        std::vector<unsigned int> taken;
+        for (const unsigned int cell : part.serial_cell)
+          for (const auto &[a, b] : tetrahedron_edges)
+            taken.push_back(mesh.middle(mesh.cells[cell][a], mesh.cells[cell][b]));
+        std::sort(taken.begin(), taken.end());
+        taken.erase(std::unique(taken.begin(), taken.end()), taken.end());
+        for (const unsigned int m : taken)
+          {
+            SerialMesh::Middle middle = mesh.middles[m];
+            for (unsigned int &end : middle.ends)
+              end = number[end];
+            part.mesh.middles.push_back(middle);
+            part.serial_middle.push_back(mesh.vertices.size() + m);
+          }
       }
 
       const SerialMesh &mesh;

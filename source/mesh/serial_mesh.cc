@@ -1,6 +1,7 @@
 #include <supple/mesh/serial_mesh.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <tuple>
 
 namespace Supple
@@ -15,6 +16,22 @@ namespace Supple
     const Tensor<1, 3> normal = dealii::cross_product_3d(vertices[cells[cell][1]] - origin,
                                                          vertices[cells[cell][2]] - origin);
     return dimension == 2 ? 0.5 * normal[2] : normal * (vertices[cells[cell][3]] - origin) / 6.;
+  }
+
+
+  unsigned int
+  SerialMesh::middle(const unsigned int v, const unsigned int w) const
+  {
+    const std::array<unsigned int, 2> ends = {{std::min(v, w), std::max(v, w)}};
+    const auto found                       = std::lower_bound(middles.begin(),
+                                        middles.end(),
+                                        ends,
+                                        [](const Middle &middle, const auto &wanted) {
+                                          return middle.ends < wanted;
+                                        });
+    if (found == middles.end() || found->ends != ends)
+      throw std::out_of_range("no edge of the mesh");
+    return found - middles.begin();
   }
 
 

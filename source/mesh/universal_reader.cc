@@ -21,6 +21,7 @@ namespace Supple
       unsigned int dimension;
       std::size_t property, material;
       FileMesh::Element element;
+      std::vector<std::size_t> nodes; ///< of a quadratic one, otherwise none
     };
 
 
@@ -219,11 +220,14 @@ namespace Supple
             vertices.insert(vertices.end(), more.begin(), more.end());
           }
         require_next();
-        if (dimension == 0 || n_vertices != dimension + 1)
+        const bool quadratic =
+          (dimension == 2 && n_vertices == 6) || (dimension == 3 && n_vertices == 10);
+        const bool is_read = n_vertices == dimension + 1 || quadratic;
+        if (dimension == 0 || !is_read)
           other_elements.insert(label(words[0]));
         if (dimension == 0)
           return;
-        if (n_vertices != dimension + 1)
+        if (!is_read)
           {
             const char *const names[] = {"", "Line ", "Face ", "Cell "};
             ++mesh.others[dimension][names[dimension] + std::to_string(n_vertices)];
@@ -232,9 +236,13 @@ namespace Supple
         UniversalElement element{dimension,
                                  static_cast<std::size_t>(std::max(words[2], 0l)),
                                  static_cast<std::size_t>(std::max(words[3], 0l)),
-                                 {label(words[0]), {}, {}}};
+                                 {label(words[0]), {}, {}},
+                                 {}};
         for (std::size_t v = 0; v < n_vertices; ++v)
-          element.element.vertices[v] = label(vertices[v]);
+          if (quadratic)
+            element.nodes.push_back(label(vertices[v]));
+          else
+            element.element.vertices[v] = label(vertices[v]);
         if (!elements.emplace(element.element.number, element).second)
           refuse("the element " + std::to_string(words[0]) +
                  " is given twice. Each element needs a number of its own.");
@@ -363,7 +371,10 @@ namespace Supple
             set_other_ids(dimension);
           }
         for (const auto &[label, element] : elements)
-          mesh.elements[element.dimension].push_back(element.element);
+          if (element.nodes.empty())
+            mesh.elements[element.dimension].push_back(element.element);
+          else
+            add_quadratic(mesh, element.element, element.nodes, NodeOrder::universal);
       }
 
       void

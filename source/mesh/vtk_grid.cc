@@ -18,6 +18,8 @@ namespace Supple
       std::string other;
     };
 
+    constexpr int triangle_6 = 22, tetrahedron_10 = 24;
+
     const std::map<int, Kind> kinds = {{3, {1, 2, ""}},
                                        {4, {1, 0, "Polyline"}},
                                        {5, {2, 3, ""}},
@@ -206,7 +208,7 @@ namespace Supple
         const auto found = kinds.find(number);
         if (found == kinds.end())
           ++mesh.others[3]["number " + std::to_string(number)];
-        else if (!found->second.other.empty())
+        else if (!found->second.other.empty() && number != triangle_6 && number != tetrahedron_10)
           ++mesh.others[found->second.dimension][found->second.other];
         else
           add_simplex(c, found->second);
@@ -221,6 +223,7 @@ namespace Supple
           throw InputError("the cell " + std::to_string(c) + " has not " +
                            std::to_string(kind.n_vertices) + " vertices.");
         FileMesh::Element element{c, {}, {}};
+        std::vector<std::size_t> nodes;
         for (unsigned int v = 0; v < kind.n_vertices; ++v)
           {
             const double vertex = grid.connectivity[static_cast<std::size_t>(begin) + v];
@@ -228,11 +231,17 @@ namespace Supple
               throw InputError("the cell " + std::to_string(c) + " has the vertex " +
                                std::to_string(std::lround(vertex)) + ", but there are only " +
                                std::to_string(grid.points.size()) + ".");
-            element.vertices[v] = vertex;
+            nodes.push_back(vertex);
           }
         if (ids && ids->values[c] > 0.)
           element.ids.push_back(ids->values[c]);
         n_negative += ids && ids->values[c] < 0.;
+        if (!kind.other.empty())
+          {
+            add_quadratic(mesh, element, nodes, NodeOrder::vtk);
+            return;
+          }
+        std::copy(nodes.begin(), nodes.end(), element.vertices.begin());
         mesh.elements[kind.dimension].push_back(element);
       }
 

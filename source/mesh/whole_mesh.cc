@@ -2,6 +2,7 @@
 
 #include <supple/base/error.h>
 #include <supple/base/expression.h>
+#include <supple/mesh/edge_middles.h>
 #include <supple/mesh/mesh_generators.h>
 #include <supple/mesh/mesh_reader.h>
 #include <supple/mesh/refinement.h>
@@ -76,6 +77,8 @@ namespace Supple
               SerialMesh mesh = read_mesh(file.string(), scene.origin("Mesh/File"));
               for (auto &vertex : mesh.vertices)
                 vertex *= parameters.scale;
+              for (auto &middle : mesh.middles)
+                middle.place *= parameters.scale;
               return mesh;
             }
         }
@@ -118,6 +121,8 @@ namespace Supple
         was_positive[c] = mesh.volume(c) > 0.;
       for (Point<3> &vertex : mesh.vertices)
         vertex = mapped(map, vertex, mesh.dimension == 2, origin);
+      for (SerialMesh::Middle &middle : mesh.middles)
+        middle.place = mapped(map, middle.place, false, origin);
 
       std::size_t n_turned = 0;
       for (std::size_t c = 0; c < mesh.cells.size(); ++c)
@@ -139,6 +144,41 @@ namespace Supple
     }
 
 
+    /** Where the generator puts the middle of an edge. */
+    Bisection::Middle
+    middle_of(const MeshParameters::Shape shape)
+    {
+      return shape == MeshParameters::Shape::hollow_cylinder ? middle_around_axis : middle_of_edge;
+    }
+
+
+    /** Gives the mesh the nodes of its order. */
+    void
+    set_order(SerialMesh &mesh, const MeshParameters &parameters, const ParameterFile &scene)
+    {
+      if (parameters.order == 1)
+        {
+          if (!mesh.middles.empty())
+            mesh.warnings.push_back(
+              "The nodes in the middles of the edges of the file are left out "
+              "(Mesh/Order = 1).");
+          mesh.middles.clear();
+          return;
+        }
+      if (mesh.dimension == 2)
+        throw InputError(scene.origin("Mesh/Order") +
+                         ": 2 is for tetrahedra; this body has triangles, whose order is 1.");
+      if (parameters.refinement.wanted() && !mesh.middles.empty())
+        throw InputError(
+          scene.origin("Mesh/Refine region") +
+          ": the file has nodes in the middles of edges, which may lie on curved "
+          "walls; where an edge is cut, nothing says where the wall is. Refine it in "
+          "the program that made it, or leave its cells as they are.");
+      if (mesh.middles.empty())
+        add_middles(mesh, middle_of(parameters.shape));
+    }
+
+
     /** Refines what the generator or the file has given, as its shape and the map want it.
      * @return the check of the mesh before that */
     MeshReport
@@ -149,8 +189,7 @@ namespace Supple
     {
       const MeshReport before = check_mesh(mesh, source);
       BodyShape shape;
-      shape.middle = parameters.shape == MeshParameters::Shape::hollow_cylinder ? middle_around_axis
-                                                                                : middle_of_edge;
+      shape.middle = middle_of(parameters.shape);
       shape.places = [&](const SerialMesh &of) {
         SerialMesh copy = of;
         if (!parameters.map.empty())
@@ -173,13 +212,16 @@ namespace Supple
   box_around(const SerialMesh &mesh, const std::vector<Point<3>> &places)
   {
     Point<3> low = places[mesh.cells[0][0]], high = low;
+    const auto include = [&](const Point<3> &place) {
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          low[d]  = std::min(low[d], place[d]);
+          high[d] = std::max(high[d], place[d]);
+        }
+    };
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
       for (const unsigned int v : mesh.cell_vertices(c))
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            low[d]  = std::min(low[d], places[v][d]);
-            high[d] = std::max(high[d], places[v][d]);
-          }
+        include(places[v]);
     return BoundingBox<3>({low, high});
   }
 
@@ -193,11 +235,18 @@ namespace Supple
     const std::string source = scene.origin(from_file ? "Mesh/File" : "Mesh/Shape");
     SerialMesh mesh          = generate_or_read(parameters, scene);
     MeshReport before;
+    set_order(mesh, parameters, scene);
     if (parameters.refinement.wanted())
-      before = refine(mesh, parameters, scene, source);
+      {
+        mesh.middles.clear();
+        before = refine(mesh, parameters, scene, source);
+        set_order(mesh, parameters, scene);
+      }
     if (!parameters.map.empty())
       apply_map(mesh, parameters.map, scene.origin("Mesh/Map"));
     MeshReport report = check_mesh(mesh, source);
+    find_parts_of_middles(mesh);
+    check_middles(mesh, source);
     report.repaired += before.repaired;
     add_new(before.warnings, report.warnings);
     if (mesh.dimension == 2 && plane.section.axisymmetric())

@@ -27,14 +27,75 @@ namespace Supple
       const unsigned int n_processes = dealii::Utilities::MPI::n_mpi_processes(halo.communicator());
       return std::max(replicated_nodes, nodes_of_process * n_processes);
     }
-
-    void
-    require_positive(const bool positive, const Halo &halo)
-    {
-      if (dealii::Utilities::MPI::min(positive ? 1 : 0, halo.communicator()) == 0)
-        throw ComputationError("the matrix is not positive definite (cg-amg)");
-    }
   } // namespace
+
+
+  void
+  require_positive(const bool positive, const Halo &halo)
+  {
+    if (dealii::Utilities::MPI::min(positive ? 1 : 0, halo.communicator()) == 0)
+      throw ComputationError("the matrix is not positive definite (cg-amg)");
+  }
+
+
+  FinestLevel::FinestLevel(const SymmetricBlockMatrix &A, const Halo &halo)
+    : A(A)
+    , halo(halo)
+    , sweeps(A.pattern)
+    , rest(A.pattern.n_local)
+    , difference(A.pattern.n_local)
+  {
+  }
+
+
+  double
+  FinestLevel::mean_diagonal() const
+  {
+    double sum = 0.;
+    for (std::size_t node = 0; node < A.pattern.n_owned; ++node)
+      for (unsigned int i = 0; i < 3; ++i)
+        sum += A.diagonal[9 * node + 4 * i];
+    const double n = 3. * A.pattern.n_owned;
+    return dealii::Utilities::MPI::sum(sum, halo.communicator()) /
+           dealii::Utilities::MPI::sum(n, halo.communicator());
+  }
+
+
+  void
+  FinestLevel::set_scale()
+  {
+    factor = 1. / mean_diagonal();
+    require_positive(factor > 0., halo);
+  }
+
+
+  void
+  FinestLevel::refresh()
+  {
+    require_positive(sweeps.set(view(), factor), halo);
+  }
+
+
+  void
+  FinestLevel::descend(NodeValues<3> *x, const NodeValues<3> *r)
+  {
+    sweeps.forward(x, rest.data(), r);
+    halo.update(x);
+    sweeps.subtract_remote(rest.data(), x);
+  }
+
+
+  void
+  FinestLevel::ascend(NodeValues<3> *x, NodeValues<3> *product, const NodeValues<3> *r)
+  {
+    A.pattern.for_pieces([&](const SymmetricPattern::Piece &piece) {
+      std::copy(r + piece.begin, r + piece.end, rest.begin() + piece.begin);
+    });
+    sweeps.subtract_remote(rest.data(), x);
+    sweeps.backward(x, rest.data(), r, difference.data(), product);
+    halo.update(difference.data());
+    sweeps.subtract_remote(product, difference.data());
+  }
 
 
   Multigrid::Level::Level(const CoarseLevel &level)
@@ -49,44 +110,21 @@ namespace Supple
 
   Multigrid::Multigrid(const SymmetricBlockMatrix &A,
                        std::shared_ptr<const dealii::Utilities::MPI::Partitioner> dofs)
-    : halo(dofs, 3)
-    , A(A)
-    , finest(A.pattern)
-    , residual(A.pattern.n_local)
-    , difference(A.pattern.n_local)
+    : Cycle(dofs)
+    , finest(A, halo)
   {
-  }
-
-
-  double
-  Multigrid::mean_diagonal() const
-  {
-    double sum = 0.;
-    for (std::size_t node = 0; node < A.pattern.n_owned; ++node)
-      for (unsigned int i = 0; i < 3; ++i)
-        sum += A.diagonal[9 * node + 4 * i];
-    const double n = 3. * A.pattern.n_owned;
-    return dealii::Utilities::MPI::sum(sum, halo.communicator()) /
-           dealii::Utilities::MPI::sum(n, halo.communicator());
-  }
-
-
-  void
-  Multigrid::set_scale()
-  {
-    factor = 1. / mean_diagonal();
-    require_positive(factor > 0., halo);
   }
 
 
   void
   Multigrid::build(const std::vector<double> &modes)
   {
-    set_scale();
+    finest.set_scale();
     refresh_finest();
     levels.clear();
-    coarsening = std::make_unique<Coarsening<3>>(finest, &halo, 0, largest_replicated(halo));
-    coarsening->refresh(view(), factor, modes);
+    coarsening =
+      std::make_unique<Coarsening<3>>(finest.smoother(), &halo, 0, largest_replicated(halo));
+    coarsening->refresh(finest.view(), finest.scale(), modes);
     refresh_coarse_levels(true);
   }
 
@@ -94,9 +132,9 @@ namespace Supple
   void
   Multigrid::refresh(const std::vector<double> &modes)
   {
-    set_scale();
+    finest.set_scale();
     refresh_finest();
-    coarsening->refresh(view(), factor, modes);
+    coarsening->refresh(finest.view(), finest.scale(), modes);
     refresh_coarse_levels(false);
   }
 
@@ -104,7 +142,7 @@ namespace Supple
   void
   Multigrid::refresh_finest()
   {
-    require_positive(finest.set(view(), factor), halo);
+    finest.refresh();
   }
 
 
@@ -118,7 +156,7 @@ namespace Supple
         if (build)
           levels.push_back(std::make_unique<Level>(*next));
         Level &level = *levels[l];
-        positive     = level.smoother.set(next->matrix.view(), factor) && positive;
+        positive     = level.smoother.set(next->matrix.view(), scale()) && positive;
         next         = nullptr;
         if (level.coarse.n_nodes <= largest_inverse)
           invert(level);
@@ -131,7 +169,7 @@ namespace Supple
                                                                  largest_replicated(halo));
             if (level.coarsening)
               {
-                level.coarsening->refresh(level.coarse.matrix.view(), factor, level.coarse.modes);
+                level.coarsening->refresh(level.coarse.matrix.view(), scale(), level.coarse.modes);
                 next = &level.coarsening->coarse;
               }
           }
@@ -149,7 +187,7 @@ namespace Supple
     const auto write = [&](const std::size_t i, const std::size_t j, const auto &block) {
       for (unsigned int a = 0; a < 6; ++a)
         for (unsigned int b = 0; b < 6; ++b)
-          full(6 * i + a, 6 * j + b) = factor * block.row[a][b];
+          full(6 * i + a, 6 * j + b) = scale() * block.row[a][b];
     };
     for (std::size_t i = 0; i < pattern.n_owned; ++i)
       {
@@ -203,21 +241,13 @@ namespace Supple
   void
   Multigrid::apply(NodeValues<3> *z, NodeValues<3> *product, const NodeValues<3> *r)
   {
-    finest.forward(z, residual.data(), r);
-    halo.update(z);
-    finest.subtract_remote(residual.data(), z);
+    finest.descend(z, r);
     if (!levels.empty())
       {
-        coarsening->restrict_residual(levels[0]->b.data(), residual.data());
+        coarsening->restrict_residual(levels[0]->b.data(), finest.residual().data());
         cycle(0);
         coarsening->add_correction(z, levels[0]->x.data());
       }
-    A.pattern.for_pieces([&](const SymmetricPattern::Piece &piece) {
-      std::copy(r + piece.begin, r + piece.end, residual.begin() + piece.begin);
-    });
-    finest.subtract_remote(residual.data(), z);
-    finest.backward(z, residual.data(), r, difference.data(), product);
-    halo.update(difference.data());
-    finest.subtract_remote(product, difference.data());
+    finest.ascend(z, product, r);
   }
 } // namespace Supple

@@ -44,6 +44,22 @@ namespace Supple
   } // namespace
 
 
+  namespace
+  {
+    /** The four triangles between the corners and the middles of the edges of a face. */
+    std::array<LocalFace, 4>
+    quarters(const LocalFace &face, const std::array<unsigned int, 3> &middles)
+    {
+      std::array<LocalFace, 4> parts;
+      parts.fill(face);
+      for (unsigned int v = 0; v < 3; ++v)
+        parts[v].nodes = {{face.nodes[v], middles[v], middles[(v + 2) % 3]}};
+      parts[3].nodes = middles;
+      return parts;
+    }
+  } // namespace
+
+
   Film::Film(const Body &body, const std::string &folder, const bool with_errors)
     : body(body)
     , file(folder + "/" + file_name())
@@ -82,7 +98,11 @@ namespace Supple
         if (body.mesh.section.plane())
           add(cell, cell.index);
       }
-    if (!body.mesh.section.plane())
+    if (parts.is_quadratic())
+      for (std::size_t f = 0; f < parts.faces.size(); ++f)
+        for (const LocalFace &part : quarters(parts.faces[f], parts.face_middles[f]))
+          add(part, part.cell_index);
+    else if (!body.mesh.section.plane())
       for (const LocalFace &face : parts.faces)
         add(face, face.cell_index);
     for (unsigned int node = 0; node < body.n_owned; ++node)

@@ -14,6 +14,8 @@ namespace Supple
   {
     const bool plane = mesh.dimension == 2;
     VtuCells grid{plane ? 5u : 10u, mesh.dimension + 1, {}};
+    if (mesh.is_quadratic())
+      grid = {24u, 10u, {}};
     std::vector<bool> is_drawn(mesh.n_local, false);
     std::vector<std::int32_t> material;
     for (const LocalCell &cell : mesh.cells)
@@ -22,7 +24,7 @@ namespace Supple
           cells.push_back(cell.index);
           material.push_back(cell.material_id);
           for (unsigned int a = 0; a < grid.points_per_cell; ++a)
-            is_drawn[cell.nodes[a]] = true;
+            is_drawn[node_of(cell, a)] = true;
         }
 
     std::vector<unsigned int> point_of(mesh.n_local);
@@ -35,8 +37,17 @@ namespace Supple
     for (const LocalCell &cell : mesh.cells)
       if (cell.owned)
         for (unsigned int a = 0; a < grid.points_per_cell; ++a)
-          grid.points.push_back(point_of[cell.nodes[a]]);
+          grid.points.push_back(point_of[node_of(cell, a)]);
     return VtuPiece(grid, {{"material", &material}});
+  }
+
+
+  unsigned int
+  Vtu::node_of(const LocalCell &cell, const unsigned int a) const
+  {
+    // Places in tetrahedron_edges of 01, 12, 02, 03, 13, 23.
+    constexpr std::array<unsigned int, 6> order = {{0, 3, 1, 2, 4, 5}};
+    return a < 4 ? cell.nodes[a] : mesh.cell_middles[cell.index][order[a - 4]];
   }
 
 

@@ -150,8 +150,10 @@ namespace Supple
     std::cout << "Supple " << SUPPLE_VERSION << ", scene " << problem.parameters.scene_name << '\n';
     line("body",
          std::to_string(mesh.n_cells) + " " + mesh.cell_name() + ", " +
-           std::to_string(mesh.n_vertices) + " vertices in " + mesh.extent() + " m, " +
-           volume.str() + " m^3");
+           std::to_string(mesh.n_vertices) + " vertices " +
+           (mesh.is_quadratic() ? "and " + std::to_string(mesh.n_middles) + " middles of edges "
+                                : "") +
+           "in " + mesh.extent() + " m, " + volume.str() + " m^3");
     if (in_detail)
       print_mesh_details();
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(mesh.communicator);

@@ -1,6 +1,6 @@
 #include <supple/linear_algebra/previous_solutions.h>
-#include <supple/multigrid/multigrid.h>
 #include <supple/solvers/iterative_solver.h>
+#include <supple/solvers/vertex_operator.h>
 
 #include <algorithm>
 #include <array>
@@ -111,7 +111,7 @@ namespace Supple
     class DoublePrecision
     {
     public:
-      DoublePrecision(Multigrid &multigrid, NodeVector &r, NodeVector &z, NodeVector &Az)
+      DoublePrecision(Cycle &multigrid, NodeVector &r, NodeVector &z, NodeVector &Az)
         : multigrid(multigrid)
         , r(r)
         , z(z)
@@ -134,7 +134,7 @@ namespace Supple
       }
 
     private:
-      Multigrid &multigrid;
+      Cycle &multigrid;
       NodeVector &r, &z, &Az;
     };
 
@@ -151,7 +151,9 @@ namespace Supple
     public:
       AmgSolver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort)
         : IterativeSolver(A, parameters, effort)
-        , multigrid(preconditioning_matrix.get(), A.body.partitioner)
+        , vertices(A.body.is_quadratic() ? std::make_unique<VertexOperator>(A) : nullptr)
+        , cycle(make_cycle())
+        , multigrid(*cycle)
         , pattern(A.matrix().pattern)
         , n_owned(A.body.n_owned)
         , correction(A.body.n_local)
@@ -182,10 +184,24 @@ namespace Supple
       }
 
     private:
+      std::unique_ptr<Cycle>
+      make_cycle() const
+      {
+        const SymmetricBlockMatrix &matrix = preconditioning_matrix.get();
+        if (!vertices)
+          return std::make_unique<Multigrid>(matrix, A.body.partitioner);
+        return std::make_unique<QuadraticMultigrid>(matrix,
+                                                    A.body.partitioner,
+                                                    vertices->matrix(),
+                                                    vertices->level());
+      }
+
       void
       do_prepare(const Vector &displacement) override
       {
         update_matrices();
+        if (vertices)
+          vertices->update();
         if (built && !rule.due() && !changed_at_once())
           {
             multigrid.refresh_finest();
@@ -381,7 +397,9 @@ namespace Supple
         return multigrid.halo.single() ? part : Utilities::MPI::sum(part, A.body.mesh.communicator);
       }
 
-      Multigrid multigrid;
+      const std::unique_ptr<VertexOperator> vertices; ///< of quadratic cells, otherwise null
+      const std::unique_ptr<Cycle> cycle;
+      Cycle &multigrid;
       RefreshRule rule;
       bool built              = false;
       double factor_of_levels = 0.; ///< of the stiffness in the matrix of the coarse levels

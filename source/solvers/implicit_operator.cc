@@ -49,10 +49,19 @@ namespace Supple
           !constraints.holds_node(column))
         columns[row].push_back(column);
     };
-    for (const auto &nodes : body.cell_nodes)
-      for (const unsigned int row : nodes)
-        for (const unsigned int column : nodes)
-          couple(row, column);
+    if (body.is_quadratic())
+      for (std::size_t cell = 0; cell < body.cell_nodes.size(); ++cell)
+        {
+          const std::vector<unsigned int> nodes = body.nodes_of_cell(cell);
+          for (const unsigned int row : nodes)
+            for (const unsigned int column : nodes)
+              couple(row, column);
+        }
+    else
+      for (const auto &nodes : body.cell_nodes)
+        for (const unsigned int row : nodes)
+          for (const unsigned int column : nodes)
+            couple(row, column);
     for (const auto &[one, other] : forces.couplings())
       couple(std::max(one, other), std::min(one, other));
 
@@ -256,6 +265,17 @@ namespace Supple
   {
     // (kappa / mu) at nu = 0.3
     assemble(matrix, 13. / 6.);
+  }
+
+
+  void
+  ImplicitOperator::assemble_on_vertices(const CellSlots &slots, SymmetricBlockMatrix &matrix) const
+  {
+    const PhaseTimer timer(effort, Phase::assembly);
+    matrix.set_zero();
+    forces.elastic().add_vertex_tangent(configuration, factors, slots, matrix);
+    if (diagonal != 0.) // of a vertex, and about seven edges that have half of theirs here
+      matrix.add_to_diagonal(4.5 * diagonal);
   }
 
 

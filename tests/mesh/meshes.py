@@ -80,8 +80,21 @@ refused(write("three.msh", vertices=[*VERTICES, (0.2, 0.2, -1), (0.2, 0.2, -2)],
               cells=[CELLS[0], (0, 2, 1, 5), (0, 2, 1, 6)]), "a face has three cells")
 accepted(write("numbers.msh", numbers=[44, 44]), "2 tetrahedra, 5 vertices", "0.5 m^3")
 refused(write("only-surface.msh", cells=[(1, 2, 3)], kind=2), "but no tetrahedra", "plane z = 0")
-quadratic = [(i / 10, (i * i % 7) / 7, (i % 3) / 3) for i in range(10)]
-refused(write("quadratic.msh", vertices=quadratic, cells=[tuple(range(10))], kind=11), "1 of the kind Tetrahedron 10", "order 1")
+
+# Quadratic cells: Gmsh's order of the edges is 01 12 02 03 23 13. With order 1 the middles are left out, with a word.
+corners = VERTICES[:4]
+edges = [(0, 1), (1, 2), (0, 2), (0, 3), (2, 3), (1, 3)]
+middles = [tuple((a + b) / 2 for a, b in zip(corners[v], corners[w])) for v, w in edges]
+ten = tuple(range(10))
+accepted(write("quadratic.msh", vertices=[*corners, *middles], cells=[ten], kind=11), "1 tetrahedra, 4 vertices", "left out (Mesh/Order = 1)")
+second = ["Mesh/Order=2"]
+accepted("quadratic.msh", "1 quadratic tetrahedra, 4 vertices and 6 middles of edges", settings=second)
+accepted("good.msh", "2 quadratic tetrahedra, 5 vertices and 9 middles of edges", settings=second)
+far_off = [(0.5, 0, 1.5), *middles[1:]]
+refused(write("folded.msh", vertices=[*corners, *far_off], cells=[ten], kind=11), "the curved edges of cell 0", "fold it", settings=second)
+refused(write("two-middles.msh", vertices=[*VERTICES, *[(i / 20, 0.1, 0.1) for i in range(12)]],
+              cells=[(0, 1, 2, 3, 5, 6, 7, 8, 9, 10), (1, 2, 3, 4, 11, 12, 13, 14, 15, 16)], kind=11), "has two nodes in its middle")
+refused("quadratic.msh", "Mesh/Refine region", "curved", settings=[*second, "Mesh/Refine region=1"])
 
 (folder / "garbage.msh").write_bytes(bytes(range(256)) * 20)
 refused("garbage.msh", "garbage.msh")

@@ -48,14 +48,17 @@ accepted(large + cells + faces, BODY)
 accepted(GRIDS.replace("1.", "10.-1") + CELLS.replace("CTETRA,1,1,", "CTETRA,1,,") + FACES, BODY)
 accepted(GRIDS + "CTETRA,1,1,1,2,3,4,,,+A\n+A,,,,\n" + "CTETRA,2,2,2,3,4,5\n" + FACES, BODY)
 
-# Second order, however its lines are joined.
+# Second order, however its lines are joined: the middles of the edges 12, 23, 13, 14, 24, 34 follow the vertices.
+places = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (0.5, 0, 0), (0.5, 0.5, 0), (0, 0.5, 0), (0, 0, 0.5), (0.5, 0, 0.5), (0, 0.5, 0.5)]
+nodes = "".join(f"GRID    {i + 1:8d}        {x:8.3f}{y:8.3f}{z:8.3f}\n" for i, (x, y, z) in enumerate(places))
+LEFT_OUT = ["1 tetrahedra, 4 vertices", "The nodes in the middles of the edges of the file are left out (Mesh/Order = 1)."]
 for first, second in [("6", "               7       8       9      10"), ("6+", "+              7       8       9      10"),
                       ("6+C1", "+C1            7       8       9      10")]:
-    nodes = "".join(f"GRID    {i:8d}        {i / 10:8.1f}{i * i % 7 / 7:8.3f}{i % 3 / 3:8.3f}\n" for i in range(1, 11))
     line = f"CTETRA         1       1       1       2       3       4       5       {first}\n{second}\n"
-    refused(nodes + line, "1 of the kind Tetrahedron 10", "order 1")
-    refused(nodes + "CTETRA,1,1,1,2,3,4,5,6,\n,7,8,9,10\n", "1 of the kind Tetrahedron 10")
-    refused(nodes + "CTETRA,1,1,1,2,3,4,5,6,+\n+,7,8,9,10\n", "1 of the kind Tetrahedron 10")
+    accepted(nodes + line, LEFT_OUT, warnings=1)
+    accepted(nodes + "CTETRA,1,1,1,2,3,4,5,6,\n,7,8,9,10\n", LEFT_OUT, warnings=1)
+    accepted(nodes + "CTETRA,1,1,1,2,3,4,5,6,+\n+,7,8,9,10\n", LEFT_OUT, warnings=1)
+refused(nodes + "CTETRA,1,1,1,2,3,4,5,6,\n,7,,9,10\n", "has the node 0, which is not in the file")
 refused(GRIDS + CELLS + "CHEXA,9,1,1,2,3,4,5,6,+\n+,7,8\n", "1 of the kind CHEXA")
 accepted(GRIDS + CELLS + FACES + "CQUAD4,9,7,1,2,3,4\n", ["Elements of the surface that are not read: 1 of the kind CQUAD4."], warnings=1)
 accepted(GRIDS + CELLS + FACES + "RBE2,9,1,123,2,3\n", ["RBE2 (1)"], warnings=1)

@@ -103,7 +103,7 @@ accepted(Writer().file({**ARRAYS, "vtkGhostType": ("UInt8", [0, 1, 0, 0])}), ["1
 
 good = Writer().file(ARRAYS)
 refused(good.replace(b"UnstructuredGrid", b"PolyData"), "PolyData", "UnstructuredGrid")
-refused(Writer().file({**ARRAYS, "types": ("UInt8", [24, 10, 5, 5])}), "1 of the kind Tetrahedron 10")
+refused(Writer().file({**ARRAYS, "types": ("UInt8", [24, 10, 5, 5])}), "the cell 0 has not 10 vertices")
 refused(Writer().file({**ARRAYS, "Points": ("Float64", POINTS[:12])}), "the vertex 4, but there are only 4")
 refused(good.replace(b'NumberOfPoints="5"', b'NumberOfPoints="6"'), "has 15 values; there should be 18")
 refused(good.replace(b"4 8 11 14", b"4 8 11 15"), "offsets ends with 15")

@@ -40,11 +40,16 @@ namespace Supple
     void
     add_traction(double time, Vector &to) const;
 
+    /** The same on faces of quadratic cells. */
+    void
+    add_quadratic_traction(double time, Vector &to) const;
+
     const Body &body;
     const Expression body_force, nodal_force, traction;
     const bool time_dependent;
     std::vector<unsigned int> forced_nodes; ///< owned
-    Faces traction_faces;
+    FaceList<3> traction_faces;
+    FaceList<6> quadratic_traction_faces; ///< of quadratic cells, in place of those
     mutable Vector force;
     mutable double force_time = 0.; ///< of the force that is kept
   };

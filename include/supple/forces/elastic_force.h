@@ -118,6 +118,21 @@ namespace Supple
                         SymmetricBlockMatrix &A,
                         double added_bulk) const;
 
+    /** As Law::add_vertex_tangent(). */
+    void
+    add_vertex_tangent(const Configuration &configuration,
+                       const TangentFactors &factors,
+                       const CellSlots &of_corners,
+                       SymmetricBlockMatrix &A) const
+    {
+      law->add_vertex_tangent(configuration.rotations,
+                              factors.mass,
+                              stiffness_factor(factors),
+                              factors.displacement,
+                              of_corners,
+                              A);
+    }
+
     /** What the frozen K has in the operator: displacement + b velocity. */
     double
     stiffness_factor(const TangentFactors &factors) const

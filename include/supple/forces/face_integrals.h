@@ -3,6 +3,7 @@
 
 #include <supple/input/parameter_file.h>
 #include <supple/mechanics/body.h>
+#include <supple/mechanics/selection.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
@@ -12,9 +13,16 @@
 
 namespace Supple
 {
-  /** Faces of the surface by their local nodes, normals pointing outward; the second node of an
-   * edge stands twice. */
-  using Faces = std::vector<std::array<unsigned int, 3>>;
+  /** Faces by their local nodes: three or, of quadratic cells, six, those of the edges 01, 12, 20
+   * behind the corners. */
+  template <unsigned int n>
+  using FaceList = std::vector<std::array<unsigned int, n>>;
+
+
+  /** @p n must be what the faces have. */
+  template <unsigned int n>
+  FaceList<n>
+  nodes_of(const Faces &faces);
 
 
   /**
@@ -35,8 +43,37 @@ namespace Supple
   };
 
 
+  /**
+   * The face of a quadratic cell, which may be curved: x = sum N_v x_v with six shape functions,
+   * and a rule of six points, exact to degree four (Strang and Fix 1973).
+   */
+  class CurvedFace
+  {
+  public:
+    static constexpr unsigned int n_points = 6;
+
+    /** @param x places of the face's nodes [m] */
+    explicit CurvedFace(const std::array<dealii::Point<3>, 6> &x);
+
+    /** Outward, as long as what the point stands for is large [m^2]. */
+    std::array<dealii::Tensor<1, 3>, n_points> normals;
+
+    /** N_v at each point. */
+    static const std::array<std::array<double, 6>, n_points> &
+    shape_values();
+
+    /** The derivative of the normal of a point by the place of node v. */
+    dealii::Tensor<2, 3>
+    normal_derivative(unsigned int point, unsigned int v) const;
+
+  private:
+    std::array<std::array<dealii::Tensor<1, 3>, 2>, n_points> tangents;
+  };
+
+
   /** A matrix for each pair of a face's nodes. */
-  using FaceMatrices = std::array<std::array<dealii::Tensor<2, 3>, 3>, 3>;
+  template <unsigned int n>
+  using FaceMatrices = std::array<std::array<dealii::Tensor<2, 3>, n>, n>;
 
 
   /**
@@ -46,9 +83,15 @@ namespace Supple
    * @param x places of the face's nodes [m]
    * @param p pressure there [Pa]
    */
-  FaceMatrices
+  FaceMatrices<3>
   pressure_derivatives(const std::array<dealii::Point<3>, 3> &x,
                        const std::array<double, 3> &p,
+                       const Section &section);
+
+  /** The same for a face of a quadratic cell. */
+  FaceMatrices<6>
+  pressure_derivatives(const std::array<dealii::Point<3>, 6> &x,
+                       const std::array<double, 6> &p,
                        const Section &section);
 
 

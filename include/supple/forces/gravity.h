@@ -47,6 +47,9 @@ namespace Supple
     void
     set_weight(Vector &to, double time) const;
 
+    void
+    set_quadratic_weight(Vector &to, double time) const;
+
     const Body &body;
     const Expression acceleration;
     const std::vector<double> mass; ///< of owned nodes [kg]

@@ -16,16 +16,21 @@ namespace Supple
    * Its derivative by the displacement is part of the consistent operator, symmetric face by face.
    * What that takes away of the whole lies on the edge of the loaded boundaries and where the
    * pressure varies. It may be indefinite: frozen and definite operators go without it.
+   *
+   * @p n_nodes of a face: 3 or, of quadratic cells, 6.
    */
+  template <unsigned int n_nodes>
   class Pressure : public Load
   {
   public:
-    /** Null without pressure. @throws InputError */
-    static std::unique_ptr<Force>
-    make(const Body &body, const LoadParameters &parameters, const ParameterFile &scene);
-
     /** @throws InputError for a pressure that acts nowhere, or is not finite */
     Pressure(const Body &body, const LoadParameters &parameters, const ParameterFile &scene);
+
+    bool
+    is_zero() const
+    {
+      return pressure.is_zero();
+    }
 
     std::string
     name() const override
@@ -79,13 +84,17 @@ namespace Supple
     /** The nodes of a face, where it is loaded. */
     struct LoadedFace
     {
-      std::array<dealii::Point<3>, 3> x; ///< places [m]
-      std::array<double, 3> p;           ///< [Pa]
+      std::array<dealii::Point<3>, n_nodes> x; ///< places [m]
+      std::array<double, n_nodes> p;           ///< [Pa]
     };
 
     /** @param u displacement of all local nodes */
     LoadedFace
-    loaded_face(const std::array<unsigned int, 3> &nodes, const double *u, double time) const;
+    loaded_face(const std::array<unsigned int, n_nodes> &nodes, const double *u, double time) const;
+
+    /** f -= what the pressure does to the nodes of a face. */
+    void
+    subtract_force(const std::array<unsigned int, n_nodes> &nodes, const LoadedFace &face) const;
 
     const Vector &
     force_at(const Configuration &configuration, double time) const override;
@@ -96,12 +105,19 @@ namespace Supple
     const Body &body;
     const Expression pressure;
     const bool follows;
-    const Faces faces;
-    std::vector<std::array<std::size_t, 3>> places; ///< of nodes v and v + 1 of a face in matrices
-    std::vector<FaceMatrices> stiffness;            ///< of each face, symmetric; none: zero
+    const FaceList<n_nodes> faces;
+
+    /** Of nodes v, w of a face in matrices, v < w, pair by pair. */
+    std::vector<std::array<std::size_t, n_nodes *(n_nodes - 1) / 2>> places;
+    std::vector<FaceMatrices<n_nodes>> stiffness; ///< of each face, symmetric; none: zero
     mutable Vector force;
     mutable double force_time = 0.; ///< of the force that is kept
   };
+
+
+  /** Null without pressure. @throws InputError */
+  std::unique_ptr<Force>
+  make_pressure(const Body &body, const LoadParameters &parameters, const ParameterFile &scene);
 } // namespace Supple
 
 #endif

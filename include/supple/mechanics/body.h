@@ -10,9 +10,10 @@
 namespace Supple
 {
   /**
-   * The elastic body: linear displacements on the mesh, and its cells with their material. A node
-   * is a vertex with its three degrees of freedom, 3 node, 3 node + 1, 3 node + 2; this process's
-   * own nodes have the local numbers 0 to n_owned - 1 and ghosts those up to n_local - 1.
+   * The elastic body: linear or quadratic displacements on the mesh, and its cells with their
+   * material. A node is a vertex, or the middle of an edge of quadratic cells, with its three
+   * degrees of freedom, 3 node, 3 node + 1, 3 node + 2; this process's own nodes have the local
+   * numbers 0 to n_owned - 1 and ghosts those up to n_local - 1.
    *
    * Each process holds every cell that touches one of its nodes, so that forces and matrix rows of
    * its own nodes need no messages but the ghost values of the displacement.
@@ -39,13 +40,24 @@ namespace Supple
     const std::vector<std::array<double, 3>> &positions; ///< at rest [m], of local nodes
     const std::vector<unsigned int> &serial_vertex;      ///< vertex index in the unpartitioned mesh
 
-    std::vector<std::array<unsigned int, 4>> cell_nodes; ///< local node numbers
-    std::vector<unsigned int> cell_index;                ///< place in values by cell
-    std::vector<unsigned int> serial_cell;               ///< index in the unpartitioned mesh
-    std::vector<bool> cell_owned;                        ///< true on exactly one process
-    std::vector<unsigned int> cell_material;             ///< material id of each cell
+    std::vector<std::array<unsigned int, 4>> cell_nodes;   ///< local node numbers
+    std::vector<std::array<unsigned int, 6>> cell_middles; ///< those of edges of quadratic cells
+    std::vector<unsigned int> cell_index;                  ///< place in values by cell
+    std::vector<unsigned int> serial_cell;                 ///< index in the unpartitioned mesh
+    std::vector<bool> cell_owned;                          ///< true on exactly one process
+    std::vector<unsigned int> cell_material;               ///< material id of each cell
 
     std::unique_ptr<const Cells> cells;
+
+    bool
+    is_quadratic() const
+    {
+      return mesh.is_quadratic();
+    }
+
+    /** All local nodes of a cell; two of a triangle's are the same. */
+    std::vector<unsigned int>
+    nodes_of_cell(std::size_t cell) const;
 
     /** Whether patches resist to a change of volume in place of the cells. */
     bool

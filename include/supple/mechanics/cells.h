@@ -15,12 +15,15 @@
 
 namespace Supple
 {
-  /** One linear tetrahedron, or triangle, as Cells wants to know it. */
+  /** One tetrahedron, or triangle, as Cells wants to know it. */
   struct Cell
   {
     std::array<unsigned int, 4> nodes; ///< local node numbers, positively oriented; 3 of a triangle
     IsotropicMaterial material;
     bool owned; ///< counted in sums: true on exactly one process
+
+    /** Of a quadratic cell, the nodes of the edges 01, 02, 03, 12, 13, 23. */
+    std::array<unsigned int, 6> middles{};
   };
 
 
@@ -37,7 +40,7 @@ namespace Supple
 
 
   /**
-   * The geometry and the mass of all linear tetrahedra of one process: gradients of the shape
+   * The geometry and the mass of all tetrahedra of one process: gradients of the shape
    * functions, volumes, materials and nodes, in flat arrays computed once. n_lanes cells make a
    * batch and are computed side by side. What stress a deformation causes is the matter of a Law.
    *
@@ -57,6 +60,9 @@ namespace Supple
    *
    *           F33 = 1 + sum_a c u_a.e_x,   c = 1/(3 r),   V = 2 pi r A
    *           f_a += V P33 c e_x
+   *
+   * Quadratic cells have six more nodes, in the middles of their edges, and four points, each of
+   * which is computed as a linear cell (quadratic_cells.h).
    *
    * Displacements, velocities and forces are arrays of 3 n_local doubles, node by node; ghost
    * values must be valid in what is read, and those of what is written are meaningless.
@@ -84,11 +90,15 @@ namespace Supple
     /** A vector at each of the four nodes. */
     using NodalPack = std::array<std::array<Pack, 3>, 4>;
 
+    /** The nodes of a batch of quadratic cells, in the order of Quadratic::corners. */
+    using TenNodes = std::array<std::array<std::uint32_t, n_lanes>, 10>;
+
     /**
      * @param positions   rest positions [m] of the local nodes, of which the first @p n_owned count
      * in sums
      * @param vertex_mass mass [kg] of each node beside that of the cells
      * @param n_threads   at most, among which cells are shared out
+     * @param quadratic   the cells, tetrahedra, have nodes in the middles of their edges
      */
     Cells(const std::vector<std::array<double, 3>> &positions,
           unsigned int n_owned,
@@ -96,7 +106,8 @@ namespace Supple
           bool lumped_mass,
           double vertex_mass,
           const Section &section = Section(),
-          unsigned int n_threads = 1);
+          unsigned int n_threads = 1,
+          bool quadratic         = false);
 
     std::size_t
     n_batches() const
@@ -115,6 +126,42 @@ namespace Supple
     hoop(const std::size_t b) const
     {
       return hoops[b];
+    }
+
+    bool
+    is_quadratic() const
+    {
+      return !ten_nodes.empty();
+    }
+
+    /** How many points a cell has, at each of which it has a deformation gradient of its own. */
+    unsigned int
+    n_points() const
+    {
+      return is_quadratic() ? 4 : 1;
+    }
+
+    /** Of a batch of quadratic cells. */
+    const TenNodes &
+    nodes_of(const std::size_t b) const
+    {
+      return ten_nodes[b];
+    }
+
+    /** A point of quadratic cells as if it were a batch of linear ones: with the gradients of the
+     * barycentric coordinates there, and as much of the volume as the point stands for. */
+    Batch
+    point(const std::size_t b, const unsigned int q) const
+    {
+      Batch point = batches[b];
+      if (curved.empty())
+        point.volume *= 0.25;
+      else
+        {
+          point.gradients = curved[b][q].gradients;
+          point.volume    = curved[b][q].weight;
+        }
+      return point;
     }
 
     /** Calls action(lane, cell) for each lane of a batch that is a cell, numbered as given to the
@@ -191,9 +238,13 @@ namespace Supple
       return chunk_start;
     }
 
-    /** Entry (a, c) of a cell's mass matrix [kg]. */
+    /** Entry (a, c) of a cell's mass matrix [kg]; of the ten nodes of a quadratic cell. */
     Pack
     mass_entry(std::size_t batch, unsigned int a, unsigned int c) const;
+
+    /** Entry of P^T M P, where P gives the middles of edges the means of their ends [kg]. */
+    Pack
+    vertex_mass_entry(std::size_t batch, bool diagonal) const;
 
     /** y += M w on all nodes, those held included. */
     void
@@ -222,11 +273,30 @@ namespace Supple
     const unsigned int n_owned; ///< nodes
     const double vertex_mass;   ///< [kg]
     const Section section;
-    const unsigned int n_nodes; ///< of a cell
+    const unsigned int n_nodes; ///< of a cell, without the middles of edges
 
   private:
+    /** The geometry of curved quadratic cells at a point. */
+    struct CurvedPoint
+    {
+      std::array<std::array<Pack, 3>, 4> gradients; ///< of the barycentric coordinates [1/m]
+      Pack weight;                                  ///< a quarter of the volume, where it is [m^3]
+    };
+
     void
     add_cell(std::size_t number, const Cell &cell);
+
+    /** @param order of its corners in the batch */
+    void
+    add_middles(std::size_t number, const Cell &cell, const std::array<unsigned int, 4> &order);
+
+    /** Whether a node is off the middle of its edge, by more than round-off. */
+    bool
+    any_is_curved() const;
+
+    /** Of all cells, by the places of their ten nodes: four points, and their sum as the volume. */
+    void
+    find_curved_points();
 
     /**
      * Cuts the batches into two chunks in a row for each thread, such that those of even number
@@ -251,6 +321,10 @@ namespace Supple
         }
     }
 
+    /** What two of the ten nodes of a quadratic cell share of its mass, over all of it. */
+    double
+    share_of_pair(unsigned int a, unsigned int c) const;
+
     /** What a cell gives of its mass to a node, over all of it. */
     Pack
     nodal_share(std::size_t batch, unsigned int a) const;
@@ -269,6 +343,8 @@ namespace Supple
     std::vector<Batch> batches;
     std::vector<std::size_t> chunk_start; ///< of batches; one chunk, or two for each thread
     std::vector<Hoop> hoops;              ///< of an axisymmetric body, otherwise none
+    std::vector<TenNodes> ten_nodes;      ///< of quadratic cells, otherwise none
+    std::vector<std::array<CurvedPoint, 4>> curved; ///< if any quadratic cell is, otherwise none
     std::vector<std::array<double, 3>> positions;
   };
 
@@ -276,6 +352,9 @@ namespace Supple
   /**
    * Where the blocks of the cells stand in matrices of one pattern, which has a piece for each
    * thread of the cells. Entries of held and of ghost nodes go to a spare block of each thread.
+   *
+   * The nodes of a linear cell ascend, those of a quadratic one need not where some are ghosts:
+   * there the transposed block of a pair is what the matrix keeps.
    */
   class CellSlots
   {
@@ -287,7 +366,29 @@ namespace Supple
     static constexpr std::array<std::array<unsigned int, 2>, 6> lower_pairs = {
       {{{1, 0}}, {{2, 0}}, {{2, 1}}, {{3, 0}}, {{3, 1}}, {{3, 2}}}};
 
+    /** The ten nodes of quadratic cells: 45 pairs a > b, (1, 0), (2, 0), (2, 1), ... */
+    struct QuadraticPlaces
+    {
+      std::array<Slot, 45> lower;
+      std::array<Slot, 10> diagonal;
+      std::array<std::uint8_t, 45> transposed; ///< a bit for each lane
+      bool any_transposed;
+    };
+
     CellSlots(const Cells &cells, const SymmetricPattern &pattern);
+
+    /** Of the corners alone, in a matrix on the vertices.
+     * @param vertex the number of each node that is a vertex, ascending over own ones and over
+     * ghosts */
+    CellSlots(const Cells &cells,
+              const SymmetricPattern &pattern,
+              const std::vector<std::uint32_t> &vertex);
+
+    const QuadraticPlaces &
+    quadratic(const std::size_t batch) const
+    {
+      return quadratic_places[batch];
+    }
 
     const std::array<Slot, 6> &
     lower(const std::size_t batch) const
@@ -315,7 +416,23 @@ namespace Supple
       std::array<Slot, 4> diagonal;
     };
 
-    std::vector<Places> places;
+    /** Where a pair of nodes stands, or the spare block of a thread. */
+    static std::uint32_t
+    place_of_pair(const SymmetricPattern &pattern,
+                  std::uint32_t node,
+                  std::uint32_t other,
+                  std::size_t spare);
+
+    /** @param number of the corner a of a cell in a batch: number(b, a, lane) */
+    template <class Number>
+    void
+    find_places(const Cells &cells, const SymmetricPattern &pattern, const Number &number);
+
+    void
+    find_quadratic_places(const Cells &cells, const SymmetricPattern &pattern);
+
+    std::vector<Places> places;                    ///< of linear cells, otherwise none
+    std::vector<QuadraticPlaces> quadratic_places; ///< of quadratic cells, otherwise none
   };
 
   inline Cells::NodalPack
@@ -413,6 +530,8 @@ namespace Supple
   Cells::mass_entry(const std::size_t b, const unsigned int a, const unsigned int c) const
   {
     const Pack mass = batches[b].density * batches[b].volume;
+    if (is_quadratic())
+      return share_of_pair(a, c) * mass;
     if (lumped_mass)
       return a == c ? nodal_share(b, a) * mass : Pack(0.);
     const Pack share = (a == c ? 2. : 1.) * pair_share * mass;

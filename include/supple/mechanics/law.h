@@ -9,7 +9,8 @@
 
 namespace Supple
 {
-  /** Rotations of cells, batch by batch. */
+  /** Rotations of cells, batch by batch; of quadratic cells those of the four points of each batch.
+   */
   struct CellRotations
   {
     using List = std::vector<Matrix3<Pack>>;
@@ -32,7 +33,7 @@ namespace Supple
     double elastic          = 0.; ///< [J]
     double min_volume_ratio = 1e300;
     double max_volume_ratio = -1e300;
-    unsigned int inverted   = 0; ///< cells with a volume ratio of zero or less
+    unsigned int inverted = 0; ///< cells with a volume ratio of zero or less, at a point of theirs
   };
 
 
@@ -106,7 +107,8 @@ namespace Supple
     virtual std::vector<CellState>
     states(const CellRotations &rotations, const double *displacement) const = 0;
 
-    /** First Piola-Kirchhoff stress of each batch [Pa]; without P33 in plane stress. */
+    /** First Piola-Kirchhoff stress of each batch, or of the four points of each batch of quadratic
+     * cells [Pa]; without P33 in plane stress. */
     virtual std::vector<Matrix3<Pack>>
     stresses(const CellRotations &rotations, const double *displacement) const = 0;
 
@@ -157,6 +159,19 @@ namespace Supple
                 const CellSlots &slots,
                 SymmetricBlockMatrix &A,
                 double added_bulk = 0.) const = 0;
+
+    /**
+     * The same for the displacements of the vertices alone, those of middles of edges being the
+     * means of both ends: P^T A P, for quadratic cells; of linear ones it is A.
+     * @param slots of the corners in a matrix on the vertices
+     */
+    virtual void
+    add_vertex_tangent(const CellRotations &rotations,
+                       double mass,
+                       double frozen,
+                       double turning,
+                       const CellSlots &slots,
+                       SymmetricBlockMatrix &A) const = 0;
 
     /** Owned cells whose rotation differs by more than an angle [rad] from the one that is kept. */
     virtual std::size_t

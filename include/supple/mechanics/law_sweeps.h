@@ -8,29 +8,14 @@
 
 namespace Supple
 {
-  /**
-   * The sweeps of a Law over all cells, made of its formulas for the cells of a batch, which are
-   * compiled into them. @p Formulas is a struct with the members of Corotational:
-   *
-   *   name(), is_linear(), has_energy(), has_rotations()
-   *   rotation(F), rotation_in_plane(F)           R of each cell, I for a law without
-   *   stress(batch, R, F)                         first Piola-Kirchhoff stress over R: R^T P [Pa]
-   *   energy_density(batch, R, F)                 [J/m^3]
-   *   stress_change(batch, R, dF), Blocks         the part of the tangent with R held; Blocks has
-   * h, shear(), entry() and hoop_stiffness rotated_gradients(batch, R)                 h_a = R g_a
-   *   Turning, turning(batch, R, F, mean_stress, definite), turning_product(), turning_block()
-   *                                               the rest of it, which can be projected
-   *
-   * Stiffness damping counts on a stress that is linear in F with R held, up to a constant.
-   */
+  /** What a Law made of formulas is, whatever its cells are like. */
   template <class Formulas>
-  class LawSweeps : public Law
+  class LawOf : public Law
   {
   public:
-    LawSweeps(const Formulas &formulas, const Cells &cells)
+    LawOf(const Formulas &formulas, const Cells &cells)
       : formulas(formulas)
       , cells(cells)
-      , volume_stiffness(cells)
     {
     }
 
@@ -56,6 +41,61 @@ namespace Supple
     has_rotations() const override
     {
       return formulas.has_rotations();
+    }
+
+  protected:
+    static Matrix3<Pack>
+    rotation_of(const CellRotations::List &rotations, const std::size_t b)
+    {
+      return rotations.empty() ? Matrix3<Pack>::identity() : rotations[b];
+    }
+
+    /** |R - R'|^2 of two rotations that differ by this angle. */
+    static double
+    square_of_difference(const double angle)
+    {
+      const double sine = std::sin(0.5 * std::min(angle, M_PI));
+      return 8. * sine * sine;
+    }
+
+    /** Whether cells have turned by more than an angle with this 8 sin(angle/2)^2. */
+    static Pack::mask_type
+    has_turned(const CellRotations &rotations, const std::size_t b, const double bound)
+    {
+      Matrix3<Pack> difference = rotations.current[b];
+      for (unsigned int k = 0; k < 9; ++k)
+        difference.entries[k] -= rotations.kept[b].entries[k];
+      return norm_square(difference) > bound;
+    }
+
+    const Formulas formulas;
+    const Cells &cells;
+  };
+
+
+  /**
+   * The sweeps of a Law over all cells, made of its formulas for the cells of a batch, which are
+   * compiled into them. @p Formulas is a struct with the members of Corotational:
+   *
+   *   name(), is_linear(), has_energy(), has_rotations()
+   *   rotation(F), rotation_in_plane(F)           R of each cell, I for a law without
+   *   stress(batch, R, F)                         first Piola-Kirchhoff stress over R: R^T P [Pa]
+   *   energy_density(batch, R, F)                 [J/m^3]
+   *   stress_change(batch, R, dF), Blocks         the part of the tangent with R held; Blocks has
+   * h, shear(), entry() and hoop_stiffness rotated_gradients(batch, R)                 h_a = R g_a
+   *   Turning, turning(batch, R, F, mean_stress, definite), turning_product(), turning_block()
+   *                                               the rest of it, which can be projected
+   *
+   * Stiffness damping counts on a stress that is linear in F with R held, up to a constant.
+   */
+  template <class Formulas>
+  class LawSweeps : public LawOf<Formulas>
+  {
+  public:
+    LawSweeps(const Formulas &formulas, const Cells &cells)
+      : LawOf<Formulas>(formulas, cells)
+      , volume_stiffness(cells)
+    {
     }
 
     void
@@ -191,6 +231,17 @@ namespace Supple
         A.add_to_diagonal(mass * cells.vertex_mass);
     }
 
+    void
+    add_vertex_tangent(const CellRotations &rotations,
+                       const double mass,
+                       const double frozen,
+                       const double turning_factor,
+                       const CellSlots &slots,
+                       SymmetricBlockMatrix &A) const override
+    {
+      add_tangent(rotations, mass, frozen, turning_factor, slots, A, 0.);
+    }
+
     std::size_t
     n_turned(const CellRotations &rotations, const double angle) const override
     {
@@ -224,11 +275,11 @@ namespace Supple
     }
 
   private:
-    static Matrix3<Pack>
-    rotation_of(const CellRotations::List &rotations, const std::size_t b)
-    {
-      return rotations.empty() ? Matrix3<Pack>::identity() : rotations[b];
-    }
+    using LawOf<Formulas>::formulas;
+    using LawOf<Formulas>::cells;
+    using LawOf<Formulas>::rotation_of;
+    using LawOf<Formulas>::square_of_difference;
+    using LawOf<Formulas>::has_turned;
 
     /** In the rotated frame, without what formulas in space have along z in plane stress. */
     Matrix3<Pack>
@@ -268,24 +319,6 @@ namespace Supple
       Cells::scatter<sign>(cells.batch(b), cells.divergence(b, P), force);
     }
 
-    /** |R - R'|^2 of two rotations that differ by this angle. */
-    static double
-    square_of_difference(const double angle)
-    {
-      const double sine = std::sin(0.5 * std::min(angle, M_PI));
-      return 8. * sine * sine;
-    }
-
-    /** Whether cells have turned by more than an angle with this 8 sin(angle/2)^2. */
-    static Pack::mask_type
-    has_turned(const CellRotations &rotations, const std::size_t b, const double bound)
-    {
-      Matrix3<Pack> difference = rotations.current[b];
-      for (unsigned int k = 0; k < 9; ++k)
-        difference.entries[k] -= rotations.kept[b].entries[k];
-      return norm_square(difference) > bound;
-    }
-
     void
     add_tangent_of_batch(const CellRotations &rotations,
                          const std::size_t b,
@@ -313,8 +346,6 @@ namespace Supple
                    SymmetricBlockMatrix &A,
                    double added_bulk) const;
 
-    const Formulas formulas;
-    const Cells &cells;
     std::vector<typename Formulas::Turning> turning; ///< empty for frozen rotations
     VolumeStiffness volume_stiffness;                ///< empty but for determinants
   };
@@ -398,7 +429,7 @@ namespace Supple
     if (tangent == Tangent::consistent && by_determinant)
       volume_stiffness.update(displacement, mean_stress->of_cells);
 
-    if (tangent == Tangent::frozen || is_linear())
+    if (tangent == Tangent::frozen || this->is_linear())
       {
         turning.clear();
         return;

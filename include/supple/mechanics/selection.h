@@ -19,6 +19,17 @@ namespace Supple
   after_word(const std::string &text, const std::string &word);
 
 
+  /** Faces of the surface by their local nodes, normals pointing outward; the second node of an
+   * edge stands twice. */
+  struct Faces
+  {
+    std::vector<std::array<unsigned int, 3>> corners;
+
+    /** Of quadratic cells, the nodes of the edges 01, 12, 20 of each face; otherwise none. */
+    std::vector<std::array<unsigned int, 3>> middles;
+  };
+
+
   /** The vertices, boundaries and regions of a body that a user means by words and numbers. */
   class Selection
   {
@@ -46,12 +57,9 @@ namespace Supple
     std::vector<bool>
     boundary_nodes(const std::string &boundary, const std::string &origin) const;
 
-    /**
-     * The faces of boundaries that touch a node of this process, their nodes in the order that
-     * makes the normal point out of the body; the second node of an edge stands twice. @throws
-     * InputError beginning with @p origin if there is no such boundary
-     */
-    std::vector<std::array<unsigned int, 3>>
+    /** The faces of boundaries that touch a node of this process. @throws InputError beginning with
+     * @p origin if there is no such boundary */
+    Faces
     boundary_faces(const std::vector<std::string> &boundaries, const std::string &origin) const;
 
     /** The nodes where an expression is not zero. @throws InputError beginning with @p origin if

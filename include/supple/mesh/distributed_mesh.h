@@ -40,8 +40,13 @@ namespace Supple
    * has to know at compile time whether the cells are tetrahedra or triangles, and deal.II's own,
    * which take some 400 bytes a cell, need not stay.
    *
-   * A node is a vertex with its three degrees of freedom, 3 node, 3 node + 1, 3 node + 2; this
-   * process's own nodes have the local numbers 0 to n_owned - 1 and ghosts those up to n_local - 1.
+   * A node is a vertex, or the middle of an edge of quadratic cells, with its three degrees of
+   * freedom, 3 node, 3 node + 1, 3 node + 2; this process's own nodes have the local numbers 0 to
+   * n_owned - 1 and ghosts those up to n_local - 1.
+   *
+   * Own nodes of quadratic cells are numbered by the vertices v <= w of their edge, with v = w for
+   * a vertex itself: those of a cell v0 e01 e02 e03 v1 e12 e13 v2 e23 v3 ascend, and neighbours
+   * stay together.
    */
   class DistributedMesh
   {
@@ -63,24 +68,44 @@ namespace Supple
      * those of its ghost cells. Null if the mesh has none. */
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> patch_partitioner;
 
+    /** Of quadratic cells, the middle nodes of the edges in the order of tetrahedron_edges, by
+     * LocalCell::index; otherwise none. */
+    std::vector<std::array<unsigned int, 6>> cell_middles;
+
+    /** Of quadratic cells, the middle nodes of the edges 01, 12, 20 of each face; otherwise none.
+     */
+    std::vector<std::array<unsigned int, 3>> face_middles;
+
     unsigned int n_cells;         ///< length of values by cell
     std::vector<LocalCell> cells; ///< this process's own and the ghosts next to them
     std::vector<LocalFace> faces; ///< of these cells on the surface, normals pointing outward
 
+    bool
+    is_quadratic() const
+    {
+      return !cell_middles.empty();
+    }
+
   private:
-    /** The node of each vertex of the part; sets partitioner. */
+    /** The nodes of a part. */
+    struct Numbers
+    {
+      std::vector<unsigned int> of_vertices, of_middles;
+    };
+
+    /** Sets partitioner. */
     template <int dim>
-    std::vector<unsigned int>
+    Numbers
     number_nodes(const MeshPart &part, MPI_Comm communicator);
 
     void
-    collect_nodes(const MeshPart &part, const std::vector<unsigned int> &node_of);
+    collect_nodes(const MeshPart &part, const Numbers &numbers);
 
     void
-    collect_cells(const MeshPart &part, const std::vector<unsigned int> &node_of);
+    collect_cells(const MeshPart &part, const Numbers &numbers);
 
     void
-    collect_faces(const MeshPart &part, const std::vector<unsigned int> &node_of);
+    collect_faces(const MeshPart &part, const Numbers &numbers);
 
     void
     find_patch_partitioner(unsigned int n_patches, MPI_Comm communicator);

@@ -39,6 +39,7 @@ namespace Supple
 
     unsigned int n_cells    = 0;                        ///< on all processes
     unsigned int n_vertices = 0;                        ///< of cells, on all processes
+    unsigned int n_middles  = 0;                        ///< of edges of quadratic cells
     double volume           = 0.;                       ///< [m^3]
     dealii::BoundingBox<3> bounding_box;                ///< [m]
     std::map<unsigned int, unsigned int> boundaries;    ///< boundary id -> number of its faces
@@ -48,19 +49,25 @@ namespace Supple
     MeshReport report;
     unsigned int checksum = 0; ///< of vertices, cells and ids
 
-    /** Of the file or the generator, those that no cell has included: a vertex's index in the mesh
-     * is less. */
+    /** Of the file or the generator, those that no cell has included, and the nodes in the middles
+     * of edges, which come after them: a node's index in the mesh is less. */
     unsigned int
     n_serial_vertices() const
     {
-      return n_vertices + report.unused_vertices;
+      return n_vertices + report.unused_vertices + n_middles;
+    }
+
+    bool
+    is_quadratic() const
+    {
+      return n_middles > 0;
     }
 
     /** Length of the bounding box's diagonal [m]. */
     double
     diameter() const;
 
-    /** "tetrahedra" or "triangles" */
+    /** "tetrahedra", "quadratic tetrahedra" or "triangles" */
     std::string
     cell_name() const;
 

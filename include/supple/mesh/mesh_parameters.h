@@ -59,6 +59,8 @@ namespace Supple
     std::string boundary_regions;
     std::string map; ///< where vertices are put; empty: they stay
 
+    unsigned int order = 1; ///< of the displacements in a cell
+
     RefinementParameters refinement;
 
     void
@@ -100,7 +102,14 @@ namespace Supple
     declare_file(dealii::ParameterHandler &prm);
 
     void
+    declare_order(dealii::ParameterHandler &prm);
+
+    void
     check_cylinder(const ParameterFile &scene) const;
+
+    /** What quadratic cells can't do. */
+    void
+    check_order(const ParameterFile &scene) const;
 
     void
     check_layers(const ParameterFile &scene) const;

@@ -15,14 +15,16 @@ namespace Supple
     SerialMesh mesh; ///< of these cells, numbered anew in the order of the whole one
     std::vector<unsigned int> serial_vertex; ///< indices of its vertices in the whole mesh
     std::vector<unsigned int> serial_cell;   ///< indices of its cells in the whole mesh
-    std::vector<unsigned int> owner;         ///< the process of each of its cells
-    unsigned int n_patches = 0;              ///< on all processes
+    std::vector<unsigned int> serial_middle; ///< numbers of its middle nodes in the whole mesh,
+                                             ///< which come after those of all vertices
+    std::vector<unsigned int> owner; ///< the process of each of its cells
+    unsigned int n_patches = 0;      ///< on all processes
 
     template <typename Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &mesh &serial_vertex &serial_cell &owner &n_patches;
+      archive &mesh &serial_vertex &serial_cell &serial_middle &owner &n_patches;
     }
   };
 

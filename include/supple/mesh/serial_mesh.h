@@ -14,6 +14,11 @@
 
 namespace Supple
 {
+  /** The edges of a tetrahedron by its corners, in the order of their middle nodes. */
+  constexpr std::array<std::array<unsigned int, 2>, 6> tetrahedron_edges = {
+    {{{0, 1}}, {{0, 2}}, {{0, 3}}, {{1, 2}}, {{1, 3}}, {{2, 3}}}};
+
+
   /** A mesh of tetrahedra, or of triangles in the plane z = 0, as plain lists: a whole one, which
    * the first process alone has, or a part of it. */
   struct SerialMesh
@@ -34,6 +39,22 @@ namespace Supple
     };
 
 
+    /** The node in the middle of an edge of quadratic cells. */
+    struct Middle
+    {
+      std::array<unsigned int, 2> ends; ///< the vertices of the edge, ascending
+      dealii::Point<3> place;           ///< [m]
+      unsigned int part = 0;            ///< of the body, as SerialMesh::parts
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &ends &place &part;
+      }
+    };
+
+
     /** A face of a cell by itself, its vertices ascending; an edge has none in the third place. */
     struct CellFace
     {
@@ -48,6 +69,8 @@ namespace Supple
     std::vector<unsigned int> patches;              ///< of the cells, or none; see make_patches()
     std::vector<unsigned int> parts;                ///< of the vertices; see check_mesh()
     std::vector<BoundaryFace> boundary;
+    std::vector<Middle>
+      middles; ///< of all edges of cells, sorted by their ends; none: linear cells
 
     // Of a file, on the first process alone.
     std::map<std::string, unsigned int> material_names; ///< ids of groups of cells by name
@@ -71,6 +94,12 @@ namespace Supple
     double
     volume(std::size_t cell) const;
 
+    /** The place in middles of that between two vertices. @throws std::out_of_range if there is
+     * none
+     */
+    unsigned int
+    middle(unsigned int v, unsigned int w) const;
+
     /** All faces of all cells, sorted by their vertices, then by cells: a face that two cells share
      * stands there twice in a row. */
     std::vector<CellFace>
@@ -80,7 +109,7 @@ namespace Supple
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &dimension &vertices &cells &materials &patches &parts &boundary;
+      archive &dimension &vertices &cells &materials &patches &parts &boundary &middles;
       archive &material_names &boundary_names &warnings;
     }
   };

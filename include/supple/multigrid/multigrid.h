@@ -2,6 +2,7 @@
 #define supple_multigrid_h
 
 #include <supple/multigrid/coarsening.h>
+#include <supple/multigrid/cycle.h>
 
 #include <Eigen/Dense>
 
@@ -9,6 +10,82 @@
 
 namespace Supple
 {
+  /** The finest level of a multigrid method: a SymmetricBlockMatrix in single precision and its
+   * smoother. */
+  class FinestLevel
+  {
+  public:
+    /** @param A stays in use; its values may change, its pattern not
+     * @param halo of its nodes, as well */
+    FinestLevel(const SymmetricBlockMatrix &A, const Halo &halo);
+
+    /** One over the mean of the diagonal entries when it was last set. */
+    double
+    scale() const
+    {
+      return factor;
+    }
+
+    /** By what factor the mean of the diagonal entries has changed since. */
+    double
+    change() const
+    {
+      return factor * mean_diagonal();
+    }
+
+    /** @throws ComputationError if the mean is not positive */
+    void
+    set_scale();
+
+    /** Takes the values that A has now. @throws ComputationError if a block on the diagonal is not
+     * positive definite */
+    void
+    refresh();
+
+    /** The first half of a cycle: x = (D + L)^-1 r, with ghosts, and residual() = r - A x. */
+    void
+    descend(NodeValues<3> *x, const NodeValues<3> *r);
+
+    std::vector<NodeValues<3>> &
+    residual()
+    {
+      return rest;
+    }
+
+    /** The second half: x has a correction, at ghosts too, and is swept backwards; product = A x.
+     */
+    void
+    ascend(NodeValues<3> *x, NodeValues<3> *product, const NodeValues<3> *r);
+
+    MatrixView<3>
+    view() const
+    {
+      return {A.pattern, A.lower.data(), A.diagonal.data()};
+    }
+
+    const BlockSmoother<3> &
+    smoother() const
+    {
+      return sweeps;
+    }
+
+  private:
+    double
+    mean_diagonal() const;
+
+    const SymmetricBlockMatrix &A;
+    const Halo &halo;
+    double factor = 1.;
+    BlockSmoother<3> sweeps;
+    std::vector<NodeValues<3>> rest, difference;
+  };
+
+
+  /** @throws ComputationError on all processes if a matrix is not positive definite on one */
+  void
+  require_positive(bool positive, const Halo &halo);
+
+
   /**
    * An approximate inverse of a SymmetricBlockMatrix by algebraic multigrid: smoothed aggregation
    * with the six rigid motions of the body (Coarsening), one sweep of Gauss-Seidel before and one
@@ -19,7 +96,7 @@ namespace Supple
    * by a factor of fifteen to twenty smaller each, as long as they are large enough to pay for
    * their messages. What is smaller every process computes for itself.
    */
-  class Multigrid
+  class Multigrid : public Cycle
   {
   public:
     /**
@@ -29,56 +106,42 @@ namespace Supple
     Multigrid(const SymmetricBlockMatrix &A,
               std::shared_ptr<const dealii::Utilities::MPI::Partitioner> dofs);
 
-    /**
-     * Chooses aggregates for the values A has now and computes all levels.
-     * @param modes six rigid motions at owned nodes, three rows of six numbers for each node, zero
-     * where the body is held
-     * @throws ComputationError if A is not positive definite
-     */
+    /** Chooses aggregates. */
     void
-    build(const std::vector<double> &modes);
+    build(const std::vector<double> &modes) override;
 
-    /** Computes all levels for the values A has now, with the aggregates of build(). */
     void
-    refresh(const std::vector<double> &modes);
+    refresh(const std::vector<double> &modes) override;
 
-    /** Takes the values A has now for the finest level and keeps the coarser ones. */
     void
-    refresh_finest();
+    refresh_finest() override;
 
-    /** z = B r, about the inverse of scale() * A, and product = scale() * A z, which comes with it.
-     * Ghost values don't matter. */
     void
-    apply(NodeValues<3> *z, NodeValues<3> *product, const NodeValues<3> *r);
+    apply(NodeValues<3> *z, NodeValues<3> *product, const NodeValues<3> *r) override;
 
-    /** One over the mean of the diagonal entries: keeps single precision within its range. */
     double
-    scale() const
+    scale() const override
     {
-      return factor;
+      return finest.scale();
     }
 
-    /** By what factor the mean of the diagonal entries has changed since all levels were computed.
-     */
     double
-    change() const
+    change() const override
     {
-      return factor * mean_diagonal();
+      return finest.change();
     }
 
     std::size_t
-    n_coarse_levels() const
+    n_coarse_levels() const override
     {
       return levels.size();
     }
 
     const CoarseLevel &
-    coarse_level(const std::size_t l) const
+    coarse_level(const std::size_t l) const override
     {
       return levels[l]->coarse;
     }
-
-    const Halo halo;
 
   private:
     /** A coarse level; the last one has an inverse or, if there are no couplings any more, only its
@@ -95,18 +158,6 @@ namespace Supple
       std::vector<NodeValues<6>> x, b, residual;
     };
 
-    MatrixView<3>
-    view() const
-    {
-      return {A.pattern, A.lower.data(), A.diagonal.data()};
-    }
-
-    double
-    mean_diagonal() const;
-
-    void
-    set_scale();
-
     /** Smoother and inverse of the coarse levels, and the levels themselves if they are new. */
     void
     refresh_coarse_levels(bool build);
@@ -117,12 +168,9 @@ namespace Supple
     void
     cycle(std::size_t level);
 
-    const SymmetricBlockMatrix &A;
-    double factor = 1.;
-    BlockSmoother<3> finest;
+    FinestLevel finest;
     std::unique_ptr<Coarsening<3>> coarsening;
     std::vector<std::unique_ptr<Level>> levels;
-    std::vector<NodeValues<3>> residual, difference; ///< on the finest level
   };
 } // namespace Supple
 

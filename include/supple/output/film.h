@@ -14,9 +14,10 @@
 namespace Supple
 {
   /**
-   * The surface of the body in each frame, for the report page: its triangles, those of a plane
-   * body being all its cells, the displacement of their vertices, and volume ratio, von Mises
-   * stress and perhaps the error in space of the cells behind them.
+   * The surface of the body in each frame, for the report page: its triangles, four of each face of
+   * a quadratic cell, those of a plane body being all its cells, the displacement of their
+   * vertices, and volume ratio, von Mises stress and perhaps the error in space of the cells behind
+   * them.
    *
    * The frames are kept in a file of the output folder, report.frames, so that a run that goes on
    * from a checkpoint has those before it. Vertices are sorted by their index in the mesh before

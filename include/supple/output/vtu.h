@@ -41,6 +41,10 @@ namespace Supple
     VtuPiece
     make_piece();
 
+    /** In the order of VTK. */
+    unsigned int
+    node_of(const LocalCell &cell, unsigned int a) const;
+
     /** A vector of nodes at the points [its unit]. */
     std::vector<float>
     at_points(const Vector &vector) const;

@@ -84,6 +84,12 @@ namespace Supple
     void
     assemble_bounded(SymmetricBlockMatrix &matrix) const;
 
+    /** Sets a matrix on the vertices to what the last A is for displacements that are linear in
+     * quadratic cells, P^T A P, without other forces than that of the cells: to precondition with.
+     * @param slots of the corners in it */
+    void
+    assemble_on_vertices(const CellSlots &slots, SymmetricBlockMatrix &matrix) const;
+
     /** What the tangent of patches is to be multiplied with. */
     double
     patch_factor() const

@@ -1,0 +1,615 @@
+#ifndef supple_quadratic_sweeps_h
+#define supple_quadratic_sweeps_h
+
+#include <supple/mechanics/law_sweeps.h>
+#include <supple/mechanics/quadratic_cells.h>
+
+namespace Supple
+{
+  /**
+   * The sweeps of a Law over quadratic cells: each of their four points is a linear cell to the
+   * formulas (Cells::point()), with a rotation of its own. With one rotation a cell a body would be
+   * too soft in bending, by an error of first order in the turn within a cell.
+   *
+   *   f_a = sum_q sum_k dN_a/dL_k f_k(q),   K_ab = sum_q sum_kl dN_a/dL_k dN_b/dL_l K_kl(q)
+   *
+   * Point q of batch b has the place 4 b + q in lists of rotations and stresses. Numbers of a cell
+   * are means over its volume; extremes are those over points, and a cell is inverted where one of
+   * its points is.
+   */
+  template <class Formulas>
+  class QuadraticSweeps : public LawOf<Formulas>
+  {
+  public:
+    QuadraticSweeps(const Formulas &formulas, const Cells &cells)
+      : LawOf<Formulas>(formulas, cells)
+    {
+    }
+
+    void
+    update_rotations(const double *displacement, CellRotations::List &rotations) const override
+    {
+      if (rotations.empty())
+        resize_in_huge_pages(rotations, n_points * cells.n_batches());
+      cells.for_batches([&](const std::size_t b) {
+        const auto W = corner_values(b, displacement);
+        for (unsigned int q = 0; q < n_points; ++q)
+          rotations[n_points * b + q] =
+            formulas.rotation(deformation_gradient(cells.point(b, q), W[q]));
+      });
+    }
+
+    void
+    subtract_force(const CellRotations &rotations,
+                   const double *displacement,
+                   double *force) const override
+    {
+      cells.for_batches_in_turn([&](const std::size_t b) {
+        const auto W = corner_values(b, displacement);
+        Quadratic::PointValues f;
+        for (unsigned int q = 0; q < n_points; ++q)
+          {
+            const Batch point     = cells.point(b, q);
+            const Matrix3<Pack> R = this->rotation_of(rotations.current, n_points * b + q);
+            f[q]                  = divergence(point,
+                              R * formulas.stress(point, R, deformation_gradient(point, W[q])),
+                              point.volume);
+          }
+        Quadratic::scatter<-1>(cells.nodes_of(b), Quadratic::to_nodes(f), force);
+      });
+    }
+
+    Deformation
+    deformation(const CellRotations &rotations, const double *displacement) const override;
+
+    std::vector<CellState>
+    states(const CellRotations &rotations, const double *displacement) const override;
+
+    std::vector<Matrix3<Pack>>
+    stresses(const CellRotations &rotations, const double *displacement) const override
+    {
+      std::vector<Matrix3<Pack>> P(n_points * cells.n_batches());
+      cells.for_batches([&](const std::size_t b) {
+        const auto W = corner_values(b, displacement);
+        for (unsigned int q = 0; q < n_points; ++q)
+          {
+            const Batch point     = cells.point(b, q);
+            const Matrix3<Pack> R = this->rotation_of(rotations.current, n_points * b + q);
+            P[n_points * b + q] = R * formulas.stress(point, R, deformation_gradient(point, W[q]));
+          }
+      });
+      return P;
+    }
+
+    double
+    round_off_square() const override;
+
+    void
+    update_tangent(Tangent tangent,
+                   const CellRotations &rotations,
+                   const double *displacement,
+                   const MeanStress *mean_stress) override;
+
+    bool
+    tangent_is_frozen() const override
+    {
+      return turning.empty();
+    }
+
+    void
+    add_frozen_product(const CellRotations &rotations,
+                       const double factor,
+                       const double *w,
+                       double *y) const override
+    {
+      cells.for_batches_in_turn([&](const std::size_t b) {
+        const auto W = corner_values(b, w);
+        Quadratic::PointValues f;
+        for (unsigned int q = 0; q < n_points; ++q)
+          {
+            const Batch point     = cells.point(b, q);
+            const Matrix3<Pack> R = this->rotation_of(rotations.current, n_points * b + q);
+            f[q]                  = divergence(point,
+                              R * formulas.stress_change(point, R, gradient(point, W[q])),
+                              factor * point.volume);
+          }
+        Quadratic::scatter(cells.nodes_of(b), Quadratic::to_nodes(f), y);
+      });
+    }
+
+    void
+    add_turning_product(const CellRotations &rotations,
+                        double factor,
+                        const double *w,
+                        double *y) const override;
+
+    void
+    add_tangent(const CellRotations &rotations,
+                const double mass,
+                const double frozen,
+                const double turning_factor,
+                const CellSlots &slots,
+                SymmetricBlockMatrix &A,
+                const double added_bulk) const override
+    {
+      cells.for_batches_in_turn([&](const std::size_t b) {
+        ask_for_next(rotations.of_tangent(), b);
+        add_tangent_of_batch(rotations, b, mass, frozen, turning_factor, slots, A, added_bulk);
+      });
+      if (cells.vertex_mass > 0.)
+        A.add_to_diagonal(mass * cells.vertex_mass);
+    }
+
+    void
+    add_vertex_tangent(const CellRotations &rotations,
+                       double mass,
+                       double frozen,
+                       double turning_factor,
+                       const CellSlots &slots,
+                       SymmetricBlockMatrix &A) const override;
+
+    std::size_t
+    n_turned(const CellRotations &rotations, const double angle) const override
+    {
+      const double bound = this->square_of_difference(angle);
+      std::size_t n      = 0;
+      for (std::size_t b = 0; b < rotations.kept.size() / n_points; ++b)
+        n +=
+          std::experimental::popcount(has_turned(rotations, b, bound) && cells.batch(b).owned > 0.);
+      return n;
+    }
+
+    void
+    renew_tangent(CellRotations &rotations,
+                  double angle,
+                  double frozen,
+                  const CellSlots &slots,
+                  SymmetricBlockMatrix &A) const override;
+
+  private:
+    using LawOf<Formulas>::formulas;
+    using LawOf<Formulas>::cells;
+    using Batch     = Cells::Batch;
+    using NodalPack = Cells::NodalPack;
+
+    static constexpr unsigned int n_points = Quadratic::n_points;
+
+    /** The tangent of a point: a block of nine entries, by rows, for each pair of corners. */
+    using CornerBlocks = std::array<std::array<std::array<Pack, 9>, 4>, 4>;
+
+    Quadratic::PointValues
+    corner_values(const std::size_t b, const double *nodal) const
+    {
+      return Quadratic::at_points(Quadratic::gather(cells.nodes_of(b), nodal));
+    }
+
+    static Matrix3<Pack>
+    gradient(const Batch &point, const NodalPack &W)
+    {
+      Matrix3<Pack> G;
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          G(i, j) = W[0][i] * point.gradients[0][j] + W[1][i] * point.gradients[1][j] +
+                    W[2][i] * point.gradients[2][j] + W[3][i] * point.gradients[3][j];
+      return G;
+    }
+
+    static Matrix3<Pack>
+    deformation_gradient(const Batch &point, const NodalPack &W)
+    {
+      Matrix3<Pack> F = gradient(point, W);
+      for (unsigned int i = 0; i < 3; ++i)
+        F(i, i) += 1.;
+      return F;
+    }
+
+    /** factor P g_k at the corners. */
+    static NodalPack
+    divergence(const Batch &point, const Matrix3<Pack> &P, const Pack &factor)
+    {
+      const auto &g = point.gradients;
+      NodalPack f;
+      for (unsigned int k = 0; k < 4; ++k)
+        for (unsigned int i = 0; i < 3; ++i)
+          f[k][i] = factor * (P(i, 0) * g[k][0] + P(i, 1) * g[k][1] + P(i, 2) * g[k][2]);
+      return f;
+    }
+
+    NodalPack
+    rotated_gradients(const CellRotations &rotations,
+                      const std::size_t place,
+                      const Batch &point) const
+    {
+      const CellRotations::List &R = rotations.of_tangent();
+      return R.empty() ? point.gradients : formulas.rotated_gradients(point, R[place]);
+    }
+
+    /** Whether a point of a cell has turned by more than an angle with this 8 sin(angle/2)^2. */
+    static Pack::mask_type
+    has_turned(const CellRotations &rotations, const std::size_t b, const double bound)
+    {
+      Pack::mask_type turned(false);
+      for (unsigned int q = 0; q < n_points; ++q)
+        turned = turned || LawOf<Formulas>::has_turned(rotations, n_points * b + q, bound);
+      return turned;
+    }
+
+    void
+    set_corner_blocks(const CellRotations &rotations,
+                      std::size_t place,
+                      const Batch &point,
+                      double frozen,
+                      double turning_factor,
+                      double added_bulk,
+                      CornerBlocks &K) const;
+
+    void
+    add_tangent_of_batch(const CellRotations &rotations,
+                         std::size_t b,
+                         double mass,
+                         double frozen,
+                         double turning_factor,
+                         const CellSlots &slots,
+                         SymmetricBlockMatrix &A,
+                         double added_bulk) const;
+
+    /** The block of nodes a, c, summed over the points. */
+    static std::array<Pack, 9>
+    block_of(const std::array<CornerBlocks, n_points> &K, unsigned int a, unsigned int c);
+
+    /** @param transposed a bit for each lane that keeps the transposed block */
+    static void
+    add_block(const std::array<Pack, 9> &block,
+              const CellSlots::Slot &slot,
+              unsigned int transposed,
+              double *values);
+
+    std::vector<typename Formulas::Turning> turning; ///< of the points; empty for frozen rotations
+  };
+
+
+  template <class Formulas>
+  double
+  QuadraticSweeps<Formulas>::round_off_square() const
+  {
+    constexpr double epsilon = 8. * std::numeric_limits<double>::epsilon();
+    Pack sum(0.);
+    for (std::size_t b = 0; b < cells.n_batches(); ++b)
+      for (unsigned int q = 0; q < n_points; ++q)
+        {
+          const Batch point = cells.point(b, q);
+          const Pack stress = epsilon * point.owned * point.volume * (point.lambda + 2. * point.mu);
+          for (unsigned int a = 0; a < Quadratic::n_nodes; ++a)
+            for (unsigned int i = 0; i < 3; ++i)
+              {
+                Pack G(0.);
+                for (unsigned int k = 0; k < 4; ++k)
+                  G += Quadratic::slope(a, k, q) * point.gradients[k][i];
+                sum += stress * stress * G * G;
+              }
+        }
+    return std::experimental::reduce(sum);
+  }
+
+
+  template <class Formulas>
+  void
+  QuadraticSweeps<Formulas>::update_tangent(const Tangent tangent,
+                                            const CellRotations &rotations,
+                                            const double *displacement,
+                                            const MeanStress *const)
+  {
+    if (tangent == Tangent::frozen || this->is_linear())
+      {
+        turning.clear();
+        return;
+      }
+    turning.resize(n_points * cells.n_batches());
+    cells.for_batches([&](const std::size_t b) {
+      const auto W = corner_values(b, displacement);
+      for (unsigned int q = 0; q < n_points; ++q)
+        {
+          const Batch point = cells.point(b, q);
+          turning[n_points * b + q] =
+            formulas.turning(point,
+                             this->rotation_of(rotations.current, n_points * b + q),
+                             deformation_gradient(point, W[q]),
+                             Pack(0.),
+                             tangent == Tangent::definite);
+        }
+    });
+  }
+
+
+  template <class Formulas>
+  void
+  QuadraticSweeps<Formulas>::add_turning_product(const CellRotations &rotations,
+                                                 const double factor,
+                                                 const double *w,
+                                                 double *y) const
+  {
+    if (turning.empty())
+      return;
+    cells.for_batches_in_turn([&](const std::size_t b) {
+      const auto W = corner_values(b, w);
+      Quadratic::PointValues f;
+      for (unsigned int q = 0; q < n_points; ++q)
+        {
+          const std::size_t place = n_points * b + q;
+          f[q]                    = formulas.turning_product(turning[place],
+                                          rotated_gradients(rotations, place, cells.point(b, q)),
+                                          W[q]);
+          for (auto &of_corner : f[q])
+            for (Pack &component : of_corner)
+              component *= factor;
+        }
+      Quadratic::scatter(cells.nodes_of(b), Quadratic::to_nodes(f), y);
+    });
+  }
+
+
+  template <class Formulas>
+  void
+  QuadraticSweeps<Formulas>::renew_tangent(CellRotations &rotations,
+                                           const double angle,
+                                           const double frozen,
+                                           const CellSlots &slots,
+                                           SymmetricBlockMatrix &A) const
+  {
+    const double bound = this->square_of_difference(angle);
+    for (std::size_t b = 0; b < rotations.kept.size() / n_points; ++b)
+      {
+        const Pack::mask_type turned = has_turned(rotations, b, bound);
+        if (std::experimental::none_of(turned))
+          continue;
+        add_tangent_of_batch(rotations, b, 0., -frozen, 0., slots, A, 0.);
+        for (std::size_t place = n_points * b; place < n_points * (b + 1); ++place)
+          for (unsigned int k = 0; k < 9; ++k)
+            std::experimental::where(turned, rotations.kept[place].entries[k]) =
+              rotations.current[place].entries[k];
+        add_tangent_of_batch(rotations, b, 0., frozen, 0., slots, A, 0.);
+      }
+  }
+
+
+  template <class Formulas>
+  void
+  QuadraticSweeps<Formulas>::set_corner_blocks(const CellRotations &rotations,
+                                               const std::size_t place,
+                                               const Batch &point,
+                                               const double frozen,
+                                               const double turning_factor,
+                                               const double added_bulk,
+                                               CornerBlocks &K) const
+  {
+    const typename Formulas::template Blocks<false> blocks(
+      point, nullptr, rotated_gradients(rotations, place, point), frozen, added_bulk);
+    const bool turns = !turning.empty();
+    for (unsigned int k = 0; k < 4; ++k)
+      for (unsigned int l = 0; l <= k; ++l)
+        {
+          const Pack diagonal = blocks.shear(k, l);
+          std::array<std::array<Pack, 3>, 3> turn;
+          if (turns)
+            turn = formulas.turning_block(turning[place], blocks.h[k], blocks.h[l]);
+          for (unsigned int i = 0; i < 3; ++i)
+            for (unsigned int j = 0; j < 3; ++j)
+              {
+                Pack entry = blocks.entry(k, l, i, j, diagonal);
+                if (turns)
+                  entry += turning_factor * turn[j][i];
+                K[k][l][3 * i + j] = entry;
+                if (k != l)
+                  K[l][k][3 * j + i] = entry;
+              }
+        }
+  }
+
+
+  template <class Formulas>
+  std::array<Pack, 9>
+  QuadraticSweeps<Formulas>::block_of(const std::array<CornerBlocks, n_points> &K,
+                                      const unsigned int a,
+                                      const unsigned int c)
+  {
+    std::array<Pack, 9> block;
+    for (Pack &entry : block)
+      entry = 0.;
+    for (unsigned int m = 0; m < (Quadratic::is_corner(a) ? 1 : 2); ++m)
+      for (unsigned int n = 0; n < (Quadratic::is_corner(c) ? 1 : 2); ++n)
+        {
+          const unsigned int k = Quadratic::corners[a][m], l = Quadratic::corners[c][n];
+          for (unsigned int q = 0; q < n_points; ++q)
+            {
+              const Pack factor(Quadratic::slope(a, k, q) * Quadratic::slope(c, l, q));
+              for (unsigned int e = 0; e < 9; ++e)
+                block[e] += factor * K[q][k][l][e];
+            }
+        }
+    return block;
+  }
+
+
+  template <class Formulas>
+  void
+  QuadraticSweeps<Formulas>::add_block(const std::array<Pack, 9> &block,
+                                       const CellSlots::Slot &slot,
+                                       const unsigned int transposed,
+                                       double *const values)
+  {
+    alignas(64) double entries[9][n_lanes];
+    for (unsigned int e = 0; e < 9; ++e)
+      block[e].copy_to(entries[e], std::experimental::vector_aligned);
+    for (unsigned int lane = 0; lane < n_lanes; ++lane)
+      {
+        double *const target = values + 9 * static_cast<std::size_t>(slot[lane]);
+        if (transposed >> lane & 1u)
+          for (unsigned int i = 0; i < 3; ++i)
+            for (unsigned int j = 0; j < 3; ++j)
+              target[3 * i + j] += entries[3 * j + i][lane];
+        else
+          for (unsigned int e = 0; e < 9; ++e)
+            target[e] += entries[e][lane];
+      }
+  }
+
+
+  template <class Formulas>
+  void
+  QuadraticSweeps<Formulas>::add_tangent_of_batch(const CellRotations &rotations,
+                                                  const std::size_t b,
+                                                  const double mass,
+                                                  const double frozen,
+                                                  const double turning_factor,
+                                                  const CellSlots &slots,
+                                                  SymmetricBlockMatrix &A,
+                                                  const double added_bulk) const
+  {
+    std::array<CornerBlocks, n_points> K;
+    for (unsigned int q = 0; q < n_points; ++q)
+      set_corner_blocks(
+        rotations, n_points * b + q, cells.point(b, q), frozen, turning_factor, added_bulk, K[q]);
+    const CellSlots::QuadraticPlaces &places = slots.quadratic(b);
+    const auto block                         = [&](const unsigned int a, const unsigned int c) {
+      std::array<Pack, 9> sum = block_of(K, a, c);
+      if (mass != 0.)
+        {
+          const Pack entry = mass * cells.mass_entry(b, a, c);
+          for (unsigned int i = 0; i < 3; ++i)
+            sum[4 * i] += entry;
+        }
+      return sum;
+    };
+    for (unsigned int a = 0, p = 0; a < Quadratic::n_nodes; ++a)
+      {
+        for (unsigned int c = 0; c < a; ++c, ++p)
+          add_block(block(a, c), places.lower[p], places.transposed[p], A.lower.data());
+        add_block(block(a, a), places.diagonal[a], 0, A.diagonal.data());
+      }
+  }
+
+
+  template <class Formulas>
+  void
+  QuadraticSweeps<Formulas>::add_vertex_tangent(const CellRotations &rotations,
+                                                const double mass,
+                                                const double frozen,
+                                                const double turning_factor,
+                                                const CellSlots &slots,
+                                                SymmetricBlockMatrix &A) const
+  {
+    // A function that is linear in a cell has the same corner values at all points: itself.
+    cells.for_batches_in_turn([&](const std::size_t b) {
+      ask_for_next(rotations.of_tangent(), b);
+      CornerBlocks sum, K;
+      for (unsigned int q = 0; q < n_points; ++q)
+        {
+          set_corner_blocks(rotations,
+                            n_points * b + q,
+                            cells.point(b, q),
+                            frozen,
+                            turning_factor,
+                            0.,
+                            q == 0 ? sum : K);
+          for (unsigned int k = 0; k < 4 && q > 0; ++k)
+            for (unsigned int l = 0; l <= k; ++l)
+              for (unsigned int e = 0; e < 9; ++e)
+                sum[k][l][e] += K[k][l][e];
+        }
+      for (unsigned int k = 0; k < 4; ++k)
+        for (unsigned int l = 0; l <= k; ++l)
+          for (unsigned int i = 0; i < 3; ++i)
+            sum[k][l][4 * i] += mass * cells.vertex_mass_entry(b, k == l);
+      for (unsigned int k = 0; k < 4; ++k)
+        add_block(sum[k][k], slots.diagonal(b)[k], 0, A.diagonal.data());
+      for (unsigned int p = 0; p < 6; ++p)
+        {
+          const auto &[row, column] = CellSlots::lower_pairs[p];
+          add_block(sum[row][column], slots.lower(b)[p], 0, A.lower.data());
+        }
+    });
+  }
+
+
+  template <class Formulas>
+  Deformation
+  QuadraticSweeps<Formulas>::deformation(const CellRotations &rotations,
+                                         const double *displacement) const
+  {
+    namespace stdx = std::experimental;
+
+    struct Sum
+    {
+      Pack elastic, inverted, smallest, largest;
+    };
+    Deformation result;
+    const auto add = [&](const std::size_t b, Sum &sum) {
+      const auto W       = corner_values(b, displacement);
+      const auto counted = cells.batch(b).owned > 0.;
+      Pack least(result.min_volume_ratio);
+      Pack::mask_type inverted(false);
+      for (unsigned int q = 0; q < n_points; ++q)
+        {
+          const Batch point     = cells.point(b, q);
+          const Matrix3<Pack> F = deformation_gradient(point, W[q]);
+          const Matrix3<Pack> R = this->rotation_of(rotations.current, n_points * b + q);
+          sum.elastic += point.owned * point.volume * formulas.energy_density(point, R, F);
+          const Pack ratio = determinant(F);
+          inverted         = inverted || !(ratio > 0.);
+
+          stdx::where(counted && ratio < sum.smallest, sum.smallest) = ratio;
+          stdx::where(counted && ratio > sum.largest, sum.largest)   = ratio;
+        }
+      stdx::where(counted && inverted, sum.inverted) += 1.;
+    };
+    const Sum zero{0., 0., result.min_volume_ratio, result.max_volume_ratio};
+    for (const Sum &sum : cells.sums_of_chunks(zero, add))
+      {
+        result.elastic += stdx::reduce(sum.elastic);
+        result.min_volume_ratio = std::min(result.min_volume_ratio, stdx::hmin(sum.smallest));
+        result.max_volume_ratio = std::max(result.max_volume_ratio, stdx::hmax(sum.largest));
+        result.inverted += static_cast<unsigned int>(stdx::reduce(sum.inverted));
+      }
+    return result;
+  }
+
+
+  template <class Formulas>
+  std::vector<CellState>
+  QuadraticSweeps<Formulas>::states(const CellRotations &rotations,
+                                    const double *displacement) const
+  {
+    namespace stdx = std::experimental;
+
+    std::vector<CellState> states(cells.n_cells, CellState{0., 0., 0., 0.});
+    cells.for_batches([&](const std::size_t b) {
+      const auto W = corner_values(b, displacement);
+      for (unsigned int q = 0; q < n_points; ++q)
+        {
+          const Batch point     = cells.point(b, q);
+          const Pack part       = point.volume / cells.batch(b).volume;
+          const Matrix3<Pack> F = deformation_gradient(point, W[q]);
+          const Matrix3<Pack> R = this->rotation_of(rotations.current, n_points * b + q);
+
+          Matrix3<Pack> deviator = formulas.stress(point, R, F);
+          const Pack mean        = trace(deviator) / 3.;
+          for (unsigned int i = 0; i < 3; ++i)
+            deviator(i, i) -= mean;
+          const Pack von_mises = stdx::sqrt(1.5 * norm_square(deviator));
+          const Pack ratio     = determinant(F);
+          const Pack cosine    = 0.5 * (trace(R) - 1.);
+          cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
+            const double weight = part[lane];
+            const double c      = std::min(1., std::max(-1., double(cosine[lane])));
+            states[cell].volume_ratio += weight * ratio[lane];
+            states[cell].von_mises_stress += weight * von_mises[lane];
+            states[cell].rotation_angle += weight * std::acos(c) * 180. / M_PI;
+            states[cell].pressure -= weight * mean[lane];
+          });
+        }
+    });
+    return states;
+  }
+} // namespace Supple
+
+#endif
