@@ -49,9 +49,11 @@ namespace Supple
     std::vector<CellState> states = law->states(configuration.rotations, values.data());
     if (configuration.patches)
       {
-        const std::vector<double> mean_stress = configuration.patches->mean_stress(values.data());
+        // Quadratic cells keep a part of the resistance.
+        const std::vector<double> mean_stress =
+          configuration.patches->mean_stress_of_cells(values.data());
         for (std::size_t c = 0; c < states.size(); ++c)
-          states[c].pressure = -mean_stress[c];
+          states[c].pressure = (body.is_quadratic() ? states[c].pressure : 0.) - mean_stress[c];
       }
     return states;
   }

@@ -86,7 +86,16 @@ namespace Supple
         IsotropicMaterial cell_is_of = material(cell.material_id);
         if (parameters.vertex_mass > 0.)
           cell_is_of.density = 0.;
-        if (cured)
+        if (cured && is_quadratic())
+          {
+            if (!(cell_is_of.lambda > 0.))
+              throw InputError(scene.origin("Material/Volumetric locking cure") +
+                               ": patches of quadratic cells are for Poisson ratios above 0, at "
+                               "which cells may lock; it must be none.");
+            patch_cells.push_back({{}, cell.patch, cell_is_of.lambda});
+            cell_is_of = cell_is_of.without_lambda();
+          }
+        else if (cured)
           {
             const auto end = cell.nodes.begin() + (mesh.section.plane() ? 3 : 4);
             patch_cells.push_back({{cell.nodes.begin(), end}, cell.patch, cell_is_of.bulk()});

@@ -201,6 +201,18 @@ namespace Supple
   }
 
 
+  std::array<double, 3>
+  Cells::place_of_point(const std::size_t cell, const unsigned int q) const
+  {
+    std::array<double, 3> place{};
+    for (unsigned int a = 0; a < Quadratic::n_nodes; ++a)
+      for (unsigned int i = 0; i < 3; ++i)
+        place[i] += Quadratic::value(a, q) *
+                    positions[ten_nodes[cell / n_lanes][a][cell % n_lanes]][i];
+    return place;
+  }
+
+
   bool
   Cells::any_is_curved() const
   {

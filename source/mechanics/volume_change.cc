@@ -1,3 +1,4 @@
+#include <supple/mechanics/quadratic_cells.h>
 #include <supple/mechanics/volume_change.h>
 
 namespace Supple
@@ -19,6 +20,75 @@ namespace Supple
           }
       return C;
     }
+
+
+    /** H and h of a point. */
+    struct Linearized
+    {
+      Matrix3<Pack> H;
+      Pack h;
+
+      Linearized(const CellRotations::List &rotations,
+                 const VolumeMeasure measure,
+                 const std::size_t place,
+                 const Matrix3<Pack> &F)
+        : H(volume_gradient(rotations, measure, place, F))
+        , h(measure == VolumeMeasure::determinant ? 2. * determinant(F) + 1. : Pack(3.))
+      {
+      }
+    };
+
+
+    /** Writes what was found at a point of a batch. @param gradients H grad N_a [1/m] */
+    template <std::size_t n_nodes>
+    void
+    write(VolumeChanges &changes,
+          const Cells &cells,
+          const std::size_t b,
+          const unsigned int q,
+          const Linearized &change,
+          const Pack &volume,
+          const std::array<std::array<Pack, 3>, n_nodes> &gradients)
+    {
+      const Pack constant = volume * (trace(change.H) - change.h);
+      cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
+        const std::size_t point = cells.n_points() * cell + q;
+        changes.volume[point]   = volume[lane];
+        changes.constant[point] = constant[lane];
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          for (unsigned int i = 0; i < 3; ++i)
+            changes.gradients[n_nodes * point + a][i] = volume[lane] * gradients[a][i][lane];
+      });
+    }
+
+
+    void
+    find_quadratic_changes(const Cells &cells,
+                           const CellRotations::List &rotations,
+                           const VolumeMeasure measure,
+                           const double *displacement,
+                           VolumeChanges &changes)
+    {
+      for (std::size_t b = 0; b < cells.n_batches(); ++b)
+        {
+          std::array<Matrix3<Pack>, Quadratic::n_points> F;
+          F.fill(Matrix3<Pack>::identity());
+          if (measure == VolumeMeasure::determinant)
+            F = Quadratic::deformation_gradients(cells, b, displacement);
+          for (unsigned int q = 0; q < Quadratic::n_points; ++q)
+            {
+              const Linearized change(rotations, measure, Quadratic::n_points * b + q, F[q]);
+              const Cells::Batch point = cells.point(b, q);
+              write(changes,
+                    cells,
+                    b,
+                    q,
+                    change,
+                    point.volume,
+                    Quadratic::to_nodes(Quadratic::divergence(point, change.H, Pack(1.)), q));
+            }
+        }
+    }
   } // namespace
 
 
@@ -27,27 +97,22 @@ namespace Supple
                       const CellRotations::List &rotations,
                       const VolumeMeasure measure,
                       const double *displacement,
-                      std::vector<VolumeChange> &changes)
+                      VolumeChanges &changes)
   {
-    changes.resize(cells.n_cells);
+    const std::size_t n_points = cells.n_points() * cells.n_cells;
+    changes.n_nodes            = cells.is_quadratic() ? Quadratic::n_nodes : 4;
+    changes.volume.resize(n_points);
+    changes.constant.resize(n_points);
+    changes.gradients.resize(n_points * changes.n_nodes);
+    if (cells.is_quadratic())
+      return find_quadratic_changes(cells, rotations, measure, displacement, changes);
     for (std::size_t b = 0; b < cells.n_batches(); ++b)
       {
         const bool exact = measure == VolumeMeasure::determinant;
         const Matrix3<Pack> F =
           exact ? cells.deformation_gradient(b, displacement) : Matrix3<Pack>::identity();
-        const Matrix3<Pack> H            = volume_gradient(rotations, measure, b, F);
-        const Pack h                     = exact ? 2. * determinant(F) + 1. : Pack(3.);
-        const Pack volume                = cells.batch(b).volume;
-        const Pack constant              = volume * (trace(H) - h);
-        const Cells::NodalPack gradients = cells.divergence(b, H);
-        cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
-          VolumeChange &change = changes[cell];
-          change.volume        = volume[lane];
-          change.constant      = constant[lane];
-          for (unsigned int a = 0; a < 4; ++a)
-            for (unsigned int i = 0; i < 3; ++i)
-              change.gradients[a][i] = change.volume * gradients[a][i][lane];
-        });
+        const Linearized change(rotations, measure, b, F);
+        write(changes, cells, b, 0, change, cells.batch(b).volume, cells.divergence(b, change.H));
       }
   }
 
@@ -55,26 +120,33 @@ namespace Supple
   void
   VolumeStiffness::update(const double *displacement, const std::vector<double> &mean_stress)
   {
-    VsF.resize(cells.n_batches());
-    for (std::size_t b = 0; b < VsF.size(); ++b)
+    const unsigned int n_points = cells.n_points();
+    VsF.resize(n_points * cells.n_batches());
+    for (std::size_t b = 0; b < cells.n_batches(); ++b)
       {
-        Pack force(0.);
-        cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
-          if (cell < mean_stress.size())
-            force[lane] = cells.batch(b).volume[lane] * mean_stress[cell];
-        });
-        VsF[b] = cells.deformation_gradient(b, displacement);
-        for (Pack &entry : VsF[b].entries)
-          entry *= force;
+        const std::vector<Matrix3<Pack>> F = deformation_gradients(cells, b, displacement);
+        for (unsigned int q = 0; q < n_points; ++q)
+          {
+            const Pack volume =
+              cells.is_quadratic() ? cells.point(b, q).volume : cells.batch(b).volume;
+            Pack force(0.);
+            cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
+              force[lane] = volume[lane] * mean_stress[n_points * cell + q];
+            });
+            Matrix3<Pack> &of_point = VsF[n_points * b + q];
+            of_point                = F[q];
+            for (Pack &entry : of_point.entries)
+              entry *= force;
+          }
       }
   }
 
 
   /** cof is quadratic in F, so that its derivative is linear in it: V s goes with F. */
   Matrix3<Pack>
-  VolumeStiffness::stress(const std::size_t b, const Matrix3<Pack> &G) const
+  VolumeStiffness::stress(const std::size_t place, const Matrix3<Pack> &G) const
   {
-    return cofactor_derivative(VsF[b], G);
+    return cofactor_derivative(VsF[place], G);
   }
 
 

@@ -302,12 +302,13 @@ namespace Supple
   void
   DistributedMesh::find_patch_partitioner(const unsigned int n_patches, const MPI_Comm communicator)
   {
-    IndexSet owned(n_patches), known(n_patches);
+    const unsigned int n = n_functions_of_patch();
+    IndexSet owned(n * n_patches), known(n * n_patches);
     for (const LocalCell &cell : cells)
       {
-        known.add_index(cell.patch);
+        known.add_range(n * cell.patch, n * (cell.patch + 1));
         if (cell.owned)
-          owned.add_index(cell.patch);
+          owned.add_range(n * cell.patch, n * (cell.patch + 1));
       }
     patch_partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned, known, communicator);
   }

@@ -344,12 +344,6 @@ namespace Supple
     if (shape == Shape::rectangle)
       throw InputError(origin +
                        ": 2 is for tetrahedra; a rectangle has triangles, whose order is 1.");
-    if (!refinement.by.empty())
-      throw InputError(
-        scene.origin("Mesh/Refine") +
-        ": pilot runs go by the error in space, which is not estimated for quadratic "
-        "cells (" +
-        origin + "); Mesh/Refine region says where to refine.");
   }
 
 

@@ -1,5 +1,7 @@
 #include <supple/observe/cell_stresses.h>
 
+#include <supple/mechanics/quadratic_cells.h>
+
 namespace Supple
 {
   namespace
@@ -42,30 +44,36 @@ namespace Supple
     std::vector<double> mean;
     if (patches)
       mean = patches->mean_stress(u.data());
-    turned.resize(cells.n_cells);
+    const unsigned int n_points = cells.n_points();
+    turned.resize(n_points * cells.n_cells);
     cells.for_batches([&](const std::size_t b) {
-      Matrix3<Pack> T =
-        rotations.empty() ? piola[b] : product_with_transposed(piola[b], rotations[b]);
+      std::vector<Matrix3<Pack>> F;
       if (patches)
+        F = deformation_gradients(cells, b, u.data());
+      for (unsigned int q = 0; q < n_points; ++q)
         {
-          Pack s(0.);
+          const std::size_t place = n_points * b + q;
+          Matrix3<Pack> T = rotations.empty() ?
+                              piola[place] :
+                              product_with_transposed(piola[place], rotations[place]);
+          if (patches)
+            {
+              Pack s(0.);
+              cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
+                s[lane] = mean[n_points * cell + q];
+              });
+              const Matrix3<Pack> H = volume_gradient(rotations, patches->measure, place, F[q]);
+              for (unsigned int k = 0; k < 9; ++k)
+                piola[place].entries[k] += s * H.entries[k];
+              for (unsigned int i = 0; i < 3; ++i)
+                T(i, i) += s;
+            }
+          const std::array<Pack, 7> lanes = lanes_of_stress(T);
           cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
-            s[lane] = mean[cell];
+            for (unsigned int k = 0; k < lanes.size(); ++k)
+              turned[n_points * cell + q].lanes[k] = lanes[k][lane];
           });
-          const Matrix3<Pack> H = volume_gradient(rotations,
-                                                  patches->measure,
-                                                  b,
-                                                  cells.deformation_gradient(b, u.data()));
-          for (unsigned int k = 0; k < 9; ++k)
-            piola[b].entries[k] += s * H.entries[k];
-          for (unsigned int i = 0; i < 3; ++i)
-            T(i, i) += s;
         }
-      const std::array<Pack, 7> lanes = lanes_of_stress(T);
-      cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
-        for (unsigned int k = 0; k < lanes.size(); ++k)
-          turned[cell].lanes[k] = lanes[k][lane];
-      });
     });
   }
 } // namespace Supple

@@ -1,5 +1,7 @@
 #include <supple/observe/probe_errors.h>
 
+#include <supple/mechanics/quadratic_cells.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -46,20 +48,22 @@ namespace Supple
 
 
   ProbeErrors::MatrixField
-  ProbeErrors::recover(const std::vector<Matrix3<Pack>> &of_batches,
+  ProbeErrors::recover(const std::vector<Matrix3<Pack>> &of_points,
                        const std::vector<double> &more) const
   {
-    const Cells &cells = *configuration.body.cells;
+    const Cells &cells          = *configuration.body.cells;
+    const unsigned int n_points = cells.n_points();
     std::array<std::vector<Octet>, 2> octets;
     for (std::vector<Octet> &half : octets)
-      half.assign(cells.n_cells, Octet{});
-    for (std::size_t b = 0; b < cells.n_batches(); ++b)
-      cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
+      half.assign(n_points * cells.n_cells, Octet{});
+    for (std::size_t place = 0; place < of_points.size(); ++place)
+      cells.for_lanes(place / n_points, [&](const unsigned int lane, const std::size_t cell) {
+        const std::size_t point = n_points * cell + place % n_points;
         for (unsigned int k = 0; k < 8; ++k)
-          octets[0][cell].lanes[k] = of_batches[b].entries[k][lane];
-        octets[1][cell].lanes[0] = of_batches[b].entries[8][lane];
+          octets[0][point].lanes[k] = of_points[place].entries[k][lane];
+        octets[1][point].lanes[0] = of_points[place].entries[8][lane];
         if (!more.empty())
-          octets[1][cell].lanes[1] = more[cell];
+          octets[1][point].lanes[1] = more[point];
       });
     return {{space_error.recovery.recover(std::move(octets[0])),
              space_error.recovery.recover(std::move(octets[1]))}};
@@ -119,26 +123,34 @@ namespace Supple
   ProbeErrors::dual_gradient(const double *z,
                              const std::vector<VolumetricPatches::Growth> &growth_of_dual) const
   {
-    const Cells &cells = *configuration.body.cells;
-    std::vector<Matrix3<Pack>> gradients(cells.n_batches());
+    const Cells &cells          = *configuration.body.cells;
+    const unsigned int n_points = cells.n_points();
+    std::vector<Matrix3<Pack>> all(n_points * cells.n_batches());
     const GhostValues u(configuration.displacement());
     cells.for_batches([&](const std::size_t b) {
-      gradients[b] = cells.gradient(b, Cells::gather(cells.batch(b), z));
+      const auto of_batch = gradients(cells, b, z);
+      std::copy(of_batch.begin(), of_batch.end(), all.begin() + n_points * b);
       if (growth_of_dual.empty())
         return;
-      Pack missing(0.); // of the change of volume
-      cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
-        missing[lane] = growth_of_dual[cell].patch - growth_of_dual[cell].cell;
-      });
-      const Matrix3<Pack> H = volume_gradient(configuration.rotations.current,
-                                              configuration.patches->measure,
-                                              b,
-                                              cells.deformation_gradient(b, u.data()));
-      const Pack square     = norm_square(H);
-      for (unsigned int k = 0; k < 9; ++k)
-        gradients[b].entries[k] += missing / square * H.entries[k];
+      const auto F = deformation_gradients(cells, b, u.data());
+      for (unsigned int q = 0; q < n_points; ++q)
+        {
+          const std::size_t place = n_points * b + q;
+          Pack missing(0.); // of the change of volume
+          cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
+            const VolumetricPatches::Growth &of_point = growth_of_dual[n_points * cell + q];
+            missing[lane]                             = of_point.patch - of_point.cell;
+          });
+          const Matrix3<Pack> H = volume_gradient(configuration.rotations.current,
+                                                  configuration.patches->measure,
+                                                  place,
+                                                  F[q]);
+          const Pack square     = norm_square(H);
+          for (unsigned int k = 0; k < 9; ++k)
+            all[place].entries[k] += missing / square * H.entries[k];
+        }
     });
-    return gradients;
+    return all;
   }
 
 
@@ -166,8 +178,10 @@ namespace Supple
     std::vector<double> mean_of_dual; // s_z [Pa]
     if (configuration.patches)
       growth_of_dual = configuration.patches->growth_by_change(z.data());
-    for (std::size_t c = 0; c < growth_of_dual.size(); ++c)
-      mean_of_dual.push_back(body.material(body.cell_material[c]).bulk() * growth_of_dual[c].patch);
+    const unsigned int n_points = body.cells->n_points();
+    for (std::size_t point = 0; point < growth_of_dual.size(); ++point)
+      mean_of_dual.push_back(body.material(body.cell_material[point / n_points]).bulk() *
+                             growth_of_dual[point].patch);
     const MatrixField gradient = recover(dual_gradient(z.data(), growth_of_dual), mean_of_dual);
 
     weights.assign(body.cell_nodes.size(), 0.);
@@ -183,10 +197,14 @@ namespace Supple
         sum += recovery.product(stress[1], gradient[1], c).lanes[0];
         if (growth.empty())
           continue;
-        const double own     = recovery.mean_difference(space_error.recovered(), c).lanes[6];
-        const double of_dual = recovery.mean_difference(gradient[1], c).lanes[1];
-        sum -= recovery.volume(c) * (own * (growth_of_dual[c].cell - growth_of_dual[c].patch) +
-                                     of_dual * (growth[c].cell - growth[c].patch));
+        for (unsigned int q = 0; q < n_points; ++q)
+          {
+            const auto &of_dual   = growth_of_dual[n_points * c + q], &of_body = growth[n_points * c + q];
+            const double own      = recovery.difference_at(space_error.recovered(), c, q).lanes[6];
+            const double dual_own = recovery.difference_at(gradient[1], c, q).lanes[1];
+            sum -= recovery.volume(c, q) * (own * (of_dual.cell - of_dual.patch) +
+                                            dual_own * (of_body.cell - of_body.patch));
+          }
       }
     return Utilities::MPI::sum(sum, body.mesh.communicator);
   }

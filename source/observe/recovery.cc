@@ -1,5 +1,7 @@
 #include <supple/observe/recovery.h>
 
+#include <supple/mechanics/quadratic_cells.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -61,32 +63,75 @@ namespace Supple
     : body(body)
     , halo(body.partitioner, 3)
     , n_nodes(body.cells->n_nodes)
+    , n_points(body.cells->n_points())
   {
-    measure_cells();
+    place_points();
     find_materials();
     find_sites();
     find_poor_sites();
   }
 
 
-  void
-  Recovery::measure_cells()
+  double
+  Recovery::volume(const std::size_t cell) const
   {
-    geometry.resize(body.cell_nodes.size());
+    double sum = points[n_points * cell].volume;
+    for (unsigned int q = 1; q < n_points; ++q)
+      sum += points[n_points * cell + q].volume;
+    return sum;
+  }
+
+
+  std::array<unsigned int, 4>
+  Recovery::corners(const std::size_t cell) const
+  {
+    if (n_points == 1)
+      return body.cell_nodes[cell];
+    const Cells::TenNodes &nodes = body.cells->nodes_of(cell / n_lanes);
+    std::array<unsigned int, 4> list;
+    for (unsigned int v = 0; v < 4; ++v)
+      list[v] = nodes[Quadratic::node[v][v]][cell % n_lanes];
+    return list;
+  }
+
+
+  void
+  Recovery::place_points()
+  {
+    points.resize(n_points * body.cell_nodes.size());
     const Cells &cells = *body.cells;
+    if (cells.is_quadratic())
+      return place_quadratic_points();
     for (std::size_t b = 0; b < cells.n_batches(); ++b)
       cells.for_lanes(b, [&](const unsigned int lane, const std::size_t c) {
-        geometry[c].volume = cells.batch(b).volume[lane];
+        points[c].volume = cells.batch(b).volume[lane];
       });
-    for (std::size_t c = 0; c < geometry.size(); ++c)
+    for (std::size_t c = 0; c < points.size(); ++c)
       {
         Place sum{};
         for (unsigned int a = 0; a < n_nodes; ++a)
           for (unsigned int i = 0; i < 3; ++i)
             sum[i] += body.positions[body.cell_nodes[c][a]][i];
         for (unsigned int i = 0; i < 3; ++i)
-          geometry[c].centroid[i] = sum[i] / n_nodes;
+          points[c].place[i] = sum[i] / n_nodes;
       }
+  }
+
+
+  void
+  Recovery::place_quadratic_points()
+  {
+    const Cells &cells = *body.cells;
+    for (std::size_t b = 0; b < cells.n_batches(); ++b)
+      for (unsigned int q = 0; q < n_points; ++q)
+        {
+          const Pack volume = cells.point(b, q).volume;
+          cells.for_lanes(b, [&](const unsigned int lane, const std::size_t c) {
+            Point &point = points[n_points * c + q];
+            point.volume = volume[lane];
+            point.place  = cells.place_of_point(c, q);
+          });
+        }
   }
 
 
@@ -131,19 +176,22 @@ namespace Supple
   void
   Recovery::find_sites()
   {
-    sites_of_cells.resize(geometry.size());
+    sites_of_cells.resize(body.cell_nodes.size());
     start.assign(materials.size() + 1, 0);
-    for (std::size_t c = 0; c < geometry.size(); ++c)
-      for (unsigned int a = 0; a < n_nodes; ++a)
-        {
-          sites_of_cells[c][a] = site_of(body.cell_nodes[c][a], body.cell_material[c]);
-          ++start[sites_of_cells[c][a] + 1];
-        }
+    for (std::size_t c = 0; c < body.cell_nodes.size(); ++c)
+      {
+        const std::array<unsigned int, 4> vertices = corners(c);
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          {
+            sites_of_cells[c][a] = site_of(vertices[a], body.cell_material[c]);
+            ++start[sites_of_cells[c][a] + 1];
+          }
+      }
     for (std::size_t site = 1; site < start.size(); ++site)
       start[site] += start[site - 1];
     cells_around.resize(start.back());
     std::vector<std::size_t> end(start.begin(), start.end() - 1);
-    for (std::size_t c = 0; c < geometry.size(); ++c)
+    for (std::size_t c = 0; c < body.cell_nodes.size(); ++c)
       for (unsigned int a = 0; a < n_nodes; ++a)
         cells_around[end[sites_of_cells[c][a]]++] = c;
   }
@@ -217,28 +265,30 @@ namespace Supple
 
 
   Recovery::Fit
-  Recovery::fit(const std::size_t site, const std::vector<Octet> &of_cells) const
+  Recovery::fit(const std::size_t site, const std::vector<Octet> &of_points) const
   {
     const Place &vertex = body.positions[site / n_slots];
     Fit fit{};
     double volume = 0.;
     Place first{};
     std::array<double, 6> second{};
+    const auto add = [&](const std::size_t p) {
+      const Point &point       = points[p];
+      const Lanes<double, 6> x = point.volume * of_points[p].lanes;
+      volume += point.volume;
+      fit.value.lanes += x;
+      for (unsigned int i = 0, ij = 0; i < 3; ++i)
+        {
+          const double arm = point.place[i] - vertex[i];
+          fit.slopes[i].lanes += arm * x;
+          first[i] += point.volume * arm;
+          for (unsigned int j = 0; j <= i; ++j, ++ij)
+            second[ij] += point.volume * arm * (point.place[j] - vertex[j]);
+        }
+    };
     for (std::size_t k = start[site]; k < start[site + 1]; ++k)
-      {
-        const Geometry &cell     = geometry[cells_around[k]];
-        const Lanes<double, 6> x = cell.volume * of_cells[cells_around[k]].lanes;
-        volume += cell.volume;
-        fit.value.lanes += x;
-        for (unsigned int i = 0, ij = 0; i < 3; ++i)
-          {
-            const double arm = cell.centroid[i] - vertex[i];
-            fit.slopes[i].lanes += arm * x;
-            first[i] += cell.volume * arm;
-            for (unsigned int j = 0; j <= i; ++j, ++ij)
-              second[ij] += cell.volume * arm * (cell.centroid[j] - vertex[j]);
-          }
-      }
+      for (unsigned int q = 0; q < n_points; ++q)
+        add(std::size_t(n_points) * cells_around[k] + q);
     // About the centroid of all, where mean and slopes do not know of each other.
     fit.value.lanes /= volume;
     for (unsigned int i = 0, ij = 0; i < 3; ++i)
@@ -277,12 +327,12 @@ namespace Supple
 
 
   Recovery::Field
-  Recovery::recover(std::vector<Octet> of_cells) const
+  Recovery::recover(std::vector<Octet> of_points) const
   {
     std::vector<Fit> fits(materials.size());
     for (std::size_t site = 0; site < std::size_t(n_slots) * body.n_owned; ++site)
       if (start[site + 1] > start[site])
-        fits[site] = fit(site, of_cells);
+        fits[site] = fit(site, of_points);
     std::size_t number = 0;
     for (const std::size_t end : end_of_round)
       {
@@ -290,21 +340,50 @@ namespace Supple
         for (; number < end; ++number)
           fits[poor[number]] = mean_of_neighbours(number, fits);
       }
-
-    Field field{std::move(of_cells), std::vector<Octet>(fits.size())};
-    for (std::size_t site = 0; site < fits.size(); ++site)
-      field.of_sites[site] = fits[site].value;
-    halo.update(reinterpret_cast<char *>(field.of_sites.data()), n_slots * sizeof(Octet));
-    return field;
+    halo.update(reinterpret_cast<char *>(fits.data()), n_slots * sizeof(Fit));
+    return {std::move(of_points), std::move(fits)};
   }
 
 
-  std::array<Octet, 4>
+  Recovery::NodalOctets
   Recovery::differences(const Field &x, const std::size_t cell) const
   {
-    std::array<Octet, 4> d{};
+    if (n_points > 1)
+      return quadratic_differences(x, cell);
+    NodalOctets d{};
     for (unsigned int a = 0; a < n_nodes; ++a)
-      d[a].lanes = x.of_sites[sites_of_cells[cell][a]].lanes - x.of_cells[cell].lanes;
+      d[a].lanes = x.of_sites[sites_of_cells[cell][a]].value.lanes - x.of_points[cell].lanes;
+    return d;
+  }
+
+
+  Recovery::NodalOctets
+  Recovery::quadratic_differences(const Field &x, const std::size_t cell) const
+  {
+    // x at corner v is that of the points times (delta_vq - b)/(a - b), with a - b = c.
+    constexpr double c = Quadratic::c, b = 0.25 * (1. - c);
+    std::array<Octet, 4> at_corners;
+    Octet sum{};
+    for (unsigned int q = 0; q < 4; ++q)
+      sum.lanes += x.of_points[4 * cell + q].lanes;
+    for (unsigned int v = 0; v < 4; ++v)
+      at_corners[v].lanes = (x.of_points[4 * cell + v].lanes - b * sum.lanes) / c;
+
+    const auto &sites = sites_of_cells[cell];
+    NodalOctets d{};
+    for (unsigned int a = 0; a < Quadratic::n_nodes; ++a)
+      {
+        const unsigned int v = Quadratic::corners[a][0], w = Quadratic::corners[a][1];
+        const Fit &one = x.of_sites[sites[v]], &other = x.of_sites[sites[w]];
+        d[a].lanes = 0.5 * (one.value.lanes - at_corners[v].lanes) +
+                     0.5 * (other.value.lanes - at_corners[w].lanes);
+        if (v == w)
+          continue;
+        const Place &from = body.positions[sites[v] / n_slots],
+                    &to   = body.positions[sites[w] / n_slots];
+        for (unsigned int i = 0; i < 3; ++i) // both polynomials in the middle of the edge
+          d[a].lanes += 0.25 * (to[i] - from[i]) * (one.slopes[i].lanes - other.slopes[i].lanes);
+      }
     return d;
   }
 
@@ -314,7 +393,7 @@ namespace Supple
   {
     std::array<double, 3> radii;
     for (unsigned int a = 0; a < 3; ++a)
-      radii[a] = body.positions[body.cell_nodes[cell][a]][0] / geometry[cell].centroid[0];
+      radii[a] = body.positions[body.cell_nodes[cell][a]][0] / points[cell].place[0];
     return radii;
   }
 
@@ -324,8 +403,10 @@ namespace Supple
   Octet
   Recovery::product(const Field &x, const Field &y, const std::size_t cell) const
   {
-    const std::array<Octet, 4> d = differences(x, cell), e = differences(y, cell);
-    const double share = geometry[cell].volume / (n_nodes * (n_nodes + 1));
+    const NodalOctets d = differences(x, cell), e = differences(y, cell);
+    if (n_points > 1)
+      return quadratic_product(d, e, cell);
+    const double share = volume(cell) / (n_nodes * (n_nodes + 1));
     Octet sum{}, all_d{}, all_e{};
     for (unsigned int a = 0; a < n_nodes; ++a)
       {
@@ -351,10 +432,34 @@ namespace Supple
 
 
   Octet
-  Recovery::mean_difference(const Field &x, const std::size_t cell) const
+  Recovery::quadratic_product(const NodalOctets &d,
+                              const NodalOctets &e,
+                              const std::size_t cell) const
   {
-    const std::array<Octet, 4> d = differences(x, cell);
+    Octet sum{};
+    for (unsigned int a = 0; a < Quadratic::n_nodes; ++a)
+      {
+        Octet row{};
+        for (unsigned int c = 0; c < Quadratic::n_nodes; ++c)
+          row.lanes += Quadratic::product(a, c) * e[c].lanes;
+        sum.lanes += d[a].lanes * row.lanes;
+      }
+    sum.lanes *= volume(cell);
+    return sum;
+  }
+
+
+  Octet
+  Recovery::difference_at(const Field &x, const std::size_t cell, const unsigned int point) const
+  {
+    const NodalOctets d = differences(x, cell);
     Octet mean{};
+    if (n_points > 1)
+      {
+        for (unsigned int a = 0; a < Quadratic::n_nodes; ++a)
+          mean.lanes += Quadratic::value(a, point) * d[a].lanes;
+        return mean;
+      }
     if (!body.mesh.section.axisymmetric())
       {
         for (unsigned int a = 0; a < n_nodes; ++a)

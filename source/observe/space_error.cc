@@ -85,7 +85,7 @@ namespace Supple
   SpaceError::lock_ratio() const
   {
     const Body &body = configuration.body;
-    if (!(error.square > 0.) ||
+    if (!(error.square > 0.) || body.is_quadratic() ||
         std::none_of(body.mesh.materials.begin(),
                      body.mesh.materials.end(),
                      [&](const auto &material) { return may_lock(material.first); }))
@@ -165,10 +165,11 @@ namespace Supple
     const GhostValues u(configuration.displacement());
     const auto growth = configuration.patches->growth(u.data());
     double sum        = 0.;
-    for (std::size_t c = 0; c < growth.size(); ++c)
-      if (body.cell_owned[c])
-        sum -= 2. * recovery.volume(c) * recovery.mean_difference(field, c).lanes[6] *
-               (growth[c].cell - growth[c].patch);
+    const unsigned int n_points = body.cells->n_points();
+    for (std::size_t c = 0; c < body.cell_nodes.size(); ++c)
+      for (unsigned int q = 0; q < n_points && body.cell_owned[c]; ++q)
+        sum -= 2. * recovery.volume(c, q) * recovery.difference_at(field, c, q).lanes[6] *
+               (growth[n_points * c + q].cell - growth[n_points * c + q].patch);
     return sum;
   }
 

@@ -20,12 +20,17 @@ namespace Supple
       prm,
       "Second mesh",
       second_mesh,
-      {{"none", SecondMesh::none}, {"coarser", SecondMesh::coarser}, {"finer", SecondMesh::finer}},
+      {{"none", SecondMesh::none},
+       {"coarser", SecondMesh::coarser},
+       {"finer", SecondMesh::finer},
+       {"linear", SecondMesh::linear}},
       "On which the same scene moves along, to tell the error of the mesh from the distance of the "
       "two (doc/error.md). coarser: cells twice as large, of generated shapes with even counts of "
       "cubes, squares, sectors, layers and intervals between rings; an eighth of the work, and "
       "where those counts can be halved twice a third run tells the order. finer: each cell is cut "
-      "in eight (triangles in four), of every shape; at least eight times the work.");
+      "in eight (triangles in four), of every shape; at least eight times the work. linear: linear "
+      "cells on the vertices of quadratic ones, for little work; their error, of which that of the "
+      "quadratic cells is a small part, is told as a bound.");
     Entries::add(
       prm,
       "Aim",

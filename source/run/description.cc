@@ -212,10 +212,15 @@ namespace Supple
         problem.mesh.section.geometry != Geometry::plane_stress)
       {
         std::ostringstream text;
-        text << "Linear " << problem.mesh.cell_name()
-             << " are too stiff (they lock) at a Poisson ratio above 0.45; it is "
-             << (poisson < 0.4999 ? digits(poisson, 6) : "0.5 - " + digits(0.5 - poisson, 2))
-             << ". Material/Volumetric locking cure = patches helps.";
+        if (body.is_quadratic())
+          text << "Quadratic tetrahedra are somewhat too stiff at a Poisson ratio above 0.45, and "
+                  "their pressure goes up and down from cell to cell; it is ";
+        else
+          text << "Linear " << problem.mesh.cell_name()
+               << " are too stiff (they lock) at a Poisson ratio above 0.45; it is ";
+        text
+          << (poisson < 0.4999 ? digits(poisson, 6) : "0.5 - " + digits(0.5 - poisson, 2))
+          << ". Material/Volumetric locking cure = patches helps.";
         list.push_back(text.str());
       }
     if (!problem.stationary && problem.parameters.time.method == TimeMethod::ida &&

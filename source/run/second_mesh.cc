@@ -23,10 +23,7 @@ namespace Supple
 
   namespace
   {
-    // Of linear cells; see SecondMesh.
-    constexpr double assumed_order  = 1.6;
     constexpr double smallest_order = 0.8; ///< to be believed
-    constexpr double largest_order  = 2.;
 
     // Distances of runs, as parts of the motion, from which on they tell no order, and no error.
     constexpr double far_for_order = 0.2;
@@ -76,6 +73,14 @@ namespace Supple
         ++other.mesh.refinement.everywhere;
         return other;
       }
+    if (kind == Kind::linear)
+      {
+        if (scene.mesh.order == 1)
+          throw InputError(origin + ": linear is for quadratic cells (Mesh/Order = 2); take "
+                                    "coarser or finer.");
+        other.mesh.order = 1;
+        return other;
+      }
     const std::string obstacle = obstacle_to_coarser(scene.mesh);
     if (!obstacle.empty())
       throw InputError(origin + ": " + obstacle +
@@ -94,7 +99,7 @@ namespace Supple
   {
     if (kind == Kind::coarser)
       return vertices_of_coarser(scene.mesh);
-    std::vector<unsigned int> all(body.mesh.n_serial_vertices());
+    std::vector<unsigned int> all(body.mesh.n_serial_vertices() - body.mesh.n_middles);
     std::iota(all.begin(), all.end(), 0);
     return all;
   }
@@ -270,6 +275,13 @@ namespace Supple
   }
 
 
+  SecondMesh::Orders
+  SecondMesh::orders() const
+  {
+    return body.mesh.is_quadratic() ? Orders{1.5, 3.} : Orders{1.6, 2.};
+  }
+
+
   bool
   SecondMesh::at_least() const
   {
@@ -280,10 +292,12 @@ namespace Supple
   double
   SecondMesh::factor() const
   {
-    const double order = at_least()
-                           ? largest_order
-                           : std::min(observed_order().value_or(assumed_order), largest_order);
-    const double gain  = std::pow(2., order);
+    if (kind == Kind::linear)
+      return 1.;
+    const auto [assumed, largest_order] = orders();
+    const double order =
+      at_least() ? largest_order : std::min(observed_order().value_or(assumed), largest_order);
+    const double gain = std::pow(2., order);
     return kind == Kind::coarser ? 1. / (gain - 1.) : -gain / (gain - 1.);
   }
 
@@ -305,6 +319,8 @@ namespace Supple
   std::string
   SecondMesh::meshes_in_words() const
   {
+    if (kind == Kind::linear)
+      return "linear cells on the same vertices";
     if (kind == Kind::finer)
       return "cells half as large";
     return observed_order() ? "cells two and four times as large" : "cells twice as large";
@@ -318,12 +334,16 @@ namespace Supple
       return "in space unknown by a second mesh, for the run on it failed: " + second.failure;
     if (!(motion > 0.))
       return "";
+    if (kind == Kind::linear)
+      return "in space less than " + percent_of(error() / motion) + " of the motion (" +
+             meshes_in_words() + ")";
     const auto order = observed_order();
     std::string how  = meshes_in_words();
     if (order)
-      how += ", order " + digits(*order, 2) + (at_least() ? " where it should be 2" : "");
+      how += ", order " + digits(*order, 2) +
+             (at_least() ? " where it should be " + digits(orders().largest, 2) : "");
     else if (!at_least())
-      how += ", order " + digits(assumed_order, 2) + " assumed";
+      how += ", order " + digits(orders().assumed, 2) + " assumed";
     return "in space " + part_of(error() / motion, at_least() || locks, "the motion") + " (" + how +
            (locks ? "; cells lock)" : ")");
   }
@@ -341,11 +361,13 @@ namespace Supple
     json.update({{"distance", largest},
                  {"largest", error()},
                  {"relative", motion > 0. ? error() / motion : 0.},
-                 {"at_least", at_least() || locks}});
-    if (observed_order())
+                 {"at_least", kind != Kind::linear && (at_least() || locks)}});
+    if (kind == Kind::linear)
+      json["at_most"] = true;
+    else if (observed_order())
       json["order"] = *observed_order();
     else if (!at_least())
-      json["order_assumed"] = assumed_order;
+      json["order_assumed"] = orders().assumed;
     if (third && !third->failure.empty())
       json["third_failed"] = third->failure;
     for (const Error &error : of_probes)

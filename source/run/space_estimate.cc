@@ -188,11 +188,6 @@ namespace Supple
     const Configuration &configuration = problem.configuration;
     SpaceErrors errors;
     errors.time = now.measurement.time;
-    if (problem.body.is_quadratic())
-      {
-        errors.unknown = "it is not estimated for quadratic cells";
-        return errors;
-      }
     if (!problem.forces.have_energy())
       {
         errors.unknown = "the forces have no elastic energy";

@@ -161,16 +161,6 @@ namespace Supple
       if (parameters.mesh.order == 1)
         return;
       const std::string order = " (" + parameters.origin("Mesh/Order") + ")";
-      if (parameters.space.aim > 0.)
-        throw InputError(parameters.origin("Space/Aim") +
-                         ": the error in space is not estimated for quadratic cells" + order + ".");
-      if (parameters.space.second_mesh != SpaceParameters::SecondMesh::none)
-        throw InputError(parameters.origin("Space/Second mesh") +
-                         ": it is for linear cells" + order + "; it must be none.");
-      if (parameters.material.cure != MaterialParameters::LockingCure::none)
-        throw InputError(parameters.origin("Material/Volumetric locking cure") +
-                         ": there are no patches of quadratic cells" + order +
-                         "; it must be none.");
       if (parameters.material.vertex_mass > 0.)
         throw InputError(parameters.origin("Material/Mass per vertex") +
                          ": it is for linear cells; quadratic ones" + order +

@@ -263,8 +263,15 @@ namespace Supple
   void
   ImplicitOperator::assemble_bounded(SymmetricBlockMatrix &matrix) const
   {
-    // (kappa / mu) at nu = 0.3
-    assemble(matrix, 13. / 6.);
+    assemble(matrix, bounded_bulk());
+  }
+
+
+  double
+  ImplicitOperator::bounded_bulk() const
+  {
+    constexpr double bulk = 13. / 6.; // kappa / mu at nu = 0.3
+    return body.is_quadratic() ? bulk - VolumetricPatches::bulk_of_quadratic_cells : bulk;
   }
 
 
@@ -273,7 +280,8 @@ namespace Supple
   {
     const PhaseTimer timer(effort, Phase::assembly);
     matrix.set_zero();
-    forces.elastic().add_vertex_tangent(configuration, factors, slots, matrix);
+    forces.elastic().add_vertex_tangent(
+      configuration, factors, slots, matrix, patches() ? bounded_bulk() : 0.);
     if (diagonal != 0.) // of a vertex, and about seven edges that have half of theirs here
       matrix.add_to_diagonal(4.5 * diagonal);
   }

@@ -2,8 +2,10 @@
 // here boxes and rectangles with displaced inner vertices and a Poisson ratio of 0.499.
 
 #include <supple/mechanics/volumetric_patches.h>
+#include <supple/mesh/edge_middles.h>
 #include <supple/mesh/mesh_generators.h>
 #include <supple/mesh/patches.h>
+#include <supple/mesh/refinement.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -24,7 +26,7 @@ using namespace Supple;
 namespace
 {
   SerialMesh
-  regular_mesh(const Geometry geometry)
+  regular_mesh(const Geometry geometry, const bool quadratic)
   {
     MeshParameters parameters;
     parameters.rectangle_origin = {2., -1.};
@@ -32,7 +34,10 @@ namespace
     parameters.squares          = {{5, 7}};
     parameters.split            = MeshParameters::Split::alternating;
     parameters.size             = {1., 1.5, 1.};
-    parameters.cubes            = {{3, 5, 3}};
+    if (quadratic)
+      parameters.cubes = {{2, 3, 2}};
+    else
+      parameters.cubes = {{3, 5, 3}};
     return geometry == Geometry::solid ? box_mesh(parameters) : rectangle_mesh(parameters);
   }
 
@@ -41,13 +46,18 @@ namespace
   class PatchedBody
   {
   public:
-    PatchedBody(const Geometry geometry, const VolumeMeasure measure, const double poisson)
+    PatchedBody(const Geometry geometry,
+                const VolumeMeasure measure,
+                const double poisson,
+                const bool quadratic = false)
       : dimension(geometry == Geometry::solid ? 3 : 2)
       , axisymmetric(geometry == Geometry::axisymmetric)
       , measure(measure)
     {
-      SerialMesh mesh = regular_mesh(geometry);
+      SerialMesh mesh = regular_mesh(geometry, quadratic);
       move_inner_vertices(mesh);
+      if (quadratic)
+        add_middle_nodes(mesh);
 
       material               = {0., 1.5, 1.};
       material.lambda        = 2. * material.mu * poisson / (1. - 2. * poisson);
@@ -57,22 +67,32 @@ namespace
       std::vector<PatchCell> patch_cells;
       for (std::size_t c = 0; c < mesh.cells.size(); ++c)
         {
-          list.push_back({mesh.cells[c], material.deviatoric(), true});
+          list.push_back({mesh.cells[c],
+                          quadratic ? material.without_lambda() : material.deviatoric(),
+                          true});
           plain_list.push_back({mesh.cells[c], material, true});
+          if (quadratic)
+            {
+              list.back().middles = plain_list.back().middles = middles_of_cell(mesh, c);
+              patch_cells.push_back({{}, patch_of[c], material.lambda});
+              continue;
+            }
           const auto vertices = mesh.cell_vertices(c);
           patch_cells.push_back({{vertices.begin(), vertices.end()}, patch_of[c], material.bulk()});
         }
       const Section section{geometry, 0.4};
       const unsigned int n = positions.size();
-      cells                = std::make_unique<ElasticCells>(positions, n, list, true, 0., section);
-      plain = std::make_unique<ElasticCells>(positions, n, plain_list, true, 0., section);
+      cells =
+        std::make_unique<ElasticCells>(positions, n, list, true, 0., section, 1u, quadratic);
+      plain =
+        std::make_unique<ElasticCells>(positions, n, plain_list, true, 0., section, 1u, quadratic);
       patches =
         std::make_unique<VolumetricPatches>(*cells->cells,
                                             patch_cells,
                                             n,
                                             measure,
                                             std::make_shared<dealii::Utilities::MPI::Partitioner>(
-                                              n_p));
+                                              (quadratic ? 4 : 1) * n_p));
     }
 
     /** u = G x + t sin(...), in the plane if the body is. */
@@ -156,6 +176,42 @@ namespace
           for (unsigned int i = 0; i < dimension && inner.back(); ++i)
             positions.back()[i] += jitter(generator);
         }
+    }
+
+    /** Behind the vertices, in the middles of the moved edges. */
+    void
+    add_middle_nodes(SerialMesh &mesh)
+    {
+      add_middles(mesh, middle_of_edge);
+      for (const auto &middle : mesh.middles)
+        {
+          const auto &[v, w] = middle.ends;
+          positions.push_back({});
+          for (unsigned int i = 0; i < 3; ++i)
+            positions.back()[i] = 0.5 * (positions[v][i] + positions[w][i]);
+          inner.push_back(is_inside(middle.place));
+        }
+    }
+
+    static bool
+    is_inside(const dealii::Point<3> &x)
+    {
+      constexpr std::array<double, 3> size = {{1., 1.5, 1.}};
+      bool inside                          = true;
+      for (unsigned int i = 0; i < 3; ++i)
+        inside = inside && x[i] > 1e-9 && x[i] < size[i] - 1e-9;
+      return inside;
+    }
+
+    static std::array<unsigned int, 6>
+    middles_of_cell(const SerialMesh &mesh, const std::size_t cell)
+    {
+      std::array<unsigned int, 6> middles;
+      const auto &nodes = mesh.cells[cell];
+      for (unsigned int e = 0; e < 6; ++e)
+        middles[e] = mesh.vertices.size() + mesh.middle(nodes[tetrahedron_edges[e][0]],
+                                                        nodes[tetrahedron_edges[e][1]]);
+      return middles;
     }
   };
 
@@ -327,10 +383,11 @@ namespace
   /** Modes of a free body at rest: six rigid ones, then softer ones than those of plain cells, but
    * not by much. */
   void
-  test_modes()
+  test_modes(const bool quadratic)
   {
-    std::printf("Modes of a free box at a Poisson ratio of 0.3\n");
-    PatchedBody body(Geometry::solid, VolumeMeasure::trace, 0.3);
+    std::printf("Modes of a free box %sat a Poisson ratio of 0.3\n",
+                quadratic ? "of quadratic cells " : "");
+    PatchedBody body(Geometry::solid, VolumeMeasure::trace, 0.3, quadratic);
     const Eigen::MatrixXd K = dense(body, [&](const Nodal &x) { return body.tangent_product(x); });
     const Eigen::MatrixXd K_plain = dense(body, [&](const Nodal &x) {
       Nodal y(x.size());
@@ -400,7 +457,8 @@ main(int argc, char **argv)
                                                   {Geometry::plane_strain, "Plane strain"},
                                                   {Geometry::axisymmetric, "Axisymmetric"}};
   test_patch_making();
-  test_modes();
+  test_modes(false);
+  test_modes(true);
   for (const auto &[geometry, name] : names)
     for (const VolumeMeasure measure : {VolumeMeasure::trace, VolumeMeasure::determinant})
       {
@@ -417,4 +475,15 @@ main(int argc, char **argv)
           test_resultants(body, u);
         test_tangent(body, u);
       }
+  for (const VolumeMeasure measure : {VolumeMeasure::trace, VolumeMeasure::determinant})
+    {
+      std::printf("Quadratic tetrahedra, %s\n",
+                  measure == VolumeMeasure::trace ? "trace" : "determinant");
+      PatchedBody body(Geometry::solid, measure, 0.499, true);
+      test_patch(body);
+      const Nodal u = body.displacement(rigid_rotation(body, 1.), 0.03);
+      test_energy(body, u);
+      test_resultants(body, u);
+      test_tangent(body, u);
+    }
 }

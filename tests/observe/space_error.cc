@@ -137,7 +137,7 @@ namespace
     for (std::size_t c = 0; c < values.size(); ++c)
       {
         const Octet product = recovery.product(field, field, c);
-        const Octet bias    = recovery.mean_difference(field, c);
+        const Octet bias    = recovery.difference_at(field, c, 0);
         for (unsigned int k = 0; k < 8; ++k)
           {
             double sum = 0.;
@@ -171,6 +171,9 @@ namespace
     const Displacement round = [](const auto &x) -> std::array<double, 3> {
       return {{0.02 * x[0], -0.03 * x[1], 0.}};
     };
+    const Displacement bent = [](const auto &x) -> std::array<double, 3> {
+      return {{0.1 * x[0] * x[1], 0.2 * x[1] * x[1] - 0.1 * x[0] * x[2], 0.3 * x[1] * x[2]}};
+    };
     struct Case
     {
       const char *name;
@@ -178,12 +181,23 @@ namespace
       std::vector<std::string> overrides;
       Displacement displacement;
     };
-    const std::string patches = "Material/Volumetric locking cure=patches";
+    const std::string patches   = "Material/Volumetric locking cure=patches";
+    const std::string quadratic = "Mesh/Order=2", straight = "Mesh/Map=x; y; z";
     for (const Case &one : std::vector<Case>{
            {"linear, two materials", block, {"Corotation/Rotation=none"}, large},
            {"corotational, two materials", block, {}, large},
            {"patches, trace", block, {patches, "Material/Volume change=trace"}, large},
            {"patches, determinant", block, {patches}, large},
+           {"quadratic cells, two materials", block, {quadratic, straight}, large},
+           {"quadratic cells, patches, determinant", block, {quadratic, straight, patches}, large},
+           {"quadratic cells, linear strain",
+            block,
+            {quadratic, straight, "Corotation/Rotation=none"},
+            bent},
+           {"quadratic cells, linear strain, patches",
+            block,
+            {quadratic, straight, "Corotation/Rotation=none", patches},
+            bent},
            {"plane strain", plate, {}, flat},
            {"plane strain, patches", plate, {patches, "Material/Poisson ratio=0.499"}, flat},
            {"plane stress", plate, {"Plane/Model=plane stress"}, flat},

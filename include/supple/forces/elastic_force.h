@@ -123,14 +123,16 @@ namespace Supple
     add_vertex_tangent(const Configuration &configuration,
                        const TangentFactors &factors,
                        const CellSlots &of_corners,
-                       SymmetricBlockMatrix &A) const
+                       SymmetricBlockMatrix &A,
+                       const double added_bulk) const
     {
       law->add_vertex_tangent(configuration.rotations,
                               factors.mass,
                               stiffness_factor(factors),
                               factors.displacement,
                               of_corners,
-                              A);
+                              A,
+                              added_bulk);
     }
 
     /** What the frozen K has in the operator: displacement + b velocity. */

@@ -164,6 +164,10 @@ namespace Supple
       return point;
     }
 
+    /** Where a point of a quadratic cell is at rest [m]. */
+    std::array<double, 3>
+    place_of_point(std::size_t cell, unsigned int q) const;
+
     /** Calls action(lane, cell) for each lane of a batch that is a cell, numbered as given to the
      * constructor. */
     template <class Action>

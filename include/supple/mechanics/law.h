@@ -47,12 +47,12 @@ namespace Supple
   };
 
 
-  /** Mean stresses [Pa] of cells whose resistance to a change of volume is not their own, and the
-   * measure of volume that they belong to. */
+  /** Mean stresses [Pa] at the points of cells whose resistance to a change of volume is not their
+   * own, and the measure of volume that they belong to. */
   struct MeanStress
   {
     VolumeMeasure measure;
-    std::vector<double> of_cells;
+    std::vector<double> of_points;
   };
 
 
@@ -164,6 +164,7 @@ namespace Supple
      * The same for the displacements of the vertices alone, those of middles of edges being the
      * means of both ends: P^T A P, for quadratic cells; of linear ones it is A.
      * @param slots of the corners in a matrix on the vertices
+     * @param added_bulk as in add_tangent()
      */
     virtual void
     add_vertex_tangent(const CellRotations &rotations,
@@ -171,7 +172,8 @@ namespace Supple
                        double frozen,
                        double turning,
                        const CellSlots &slots,
-                       SymmetricBlockMatrix &A) const = 0;
+                       SymmetricBlockMatrix &A,
+                       double added_bulk = 0.) const = 0;
 
     /** Owned cells whose rotation differs by more than an angle [rad] from the one that is kept. */
     virtual std::size_t

@@ -237,9 +237,10 @@ namespace Supple
                        const double frozen,
                        const double turning_factor,
                        const CellSlots &slots,
-                       SymmetricBlockMatrix &A) const override
+                       SymmetricBlockMatrix &A,
+                       const double added_bulk) const override
     {
-      add_tangent(rotations, mass, frozen, turning_factor, slots, A, 0.);
+      add_tangent(rotations, mass, frozen, turning_factor, slots, A, added_bulk);
     }
 
     std::size_t
@@ -427,7 +428,7 @@ namespace Supple
     const bool by_determinant = mean_stress && mean_stress->measure == VolumeMeasure::determinant;
     volume_stiffness.clear();
     if (tangent == Tangent::consistent && by_determinant)
-      volume_stiffness.update(displacement, mean_stress->of_cells);
+      volume_stiffness.update(displacement, mean_stress->of_points);
 
     if (tangent == Tangent::frozen || this->is_linear())
       {
@@ -440,7 +441,7 @@ namespace Supple
         Pack s(0.);
         if (mean_stress && !by_determinant)
           cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
-            s[lane] = mean_stress->of_cells[cell];
+            s[lane] = mean_stress->of_points[cell];
           });
         turning[b] = formulas.turning(cells.batch(b),
                                       rotation_of(rotations.current, b),

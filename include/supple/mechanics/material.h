@@ -34,6 +34,13 @@ namespace Supple
       return {-2. / 3. * mu, mu, density};
     }
 
+    /** The same material with lambda = 0, which leaves it a bulk modulus of 2/3 mu. */
+    IsotropicMaterial
+    without_lambda() const
+    {
+      return {0., mu, density};
+    }
+
     /** Poisson's ratio. */
     double
     poisson() const

@@ -67,6 +67,16 @@ namespace Supple
       return (is_corner(a) ? -c : 1. - c) + (other == point ? 4. * c : 0.);
     }
 
+    /** N_a at a point. */
+    constexpr double
+    value(const unsigned int a, const unsigned int point)
+    {
+      const unsigned int v = corners[a][0], w = corners[a][1];
+      const double L_v = 0.25 * (v == point ? 1. + 3. * c : 1. - c);
+      const double L_w = 0.25 * (w == point ? 1. + 3. * c : 1. - c);
+      return is_corner(a) ? L_v * (2. * L_v - 1.) : 4. * L_v * L_w;
+    }
+
     /** The integral of N_a N_b over a cell of volume one. */
     constexpr double
     product(const unsigned int a, const unsigned int b)
@@ -154,6 +164,51 @@ namespace Supple
     }
 
 
+    /** The gradient of a field at a point, by its corner values there. */
+    inline Matrix3<Pack>
+    gradient(const Cells::Batch &point, const Cells::NodalPack &W)
+    {
+      Matrix3<Pack> G;
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          G(i, j) = W[0][i] * point.gradients[0][j] + W[1][i] * point.gradients[1][j] +
+                    W[2][i] * point.gradients[2][j] + W[3][i] * point.gradients[3][j];
+      return G;
+    }
+
+
+    /** factor P g_k at the corners of a point. */
+    inline Cells::NodalPack
+    divergence(const Cells::Batch &point, const Matrix3<Pack> &P, const Pack &factor)
+    {
+      const auto &g = point.gradients;
+      Cells::NodalPack f;
+      for (unsigned int k = 0; k < 4; ++k)
+        for (unsigned int i = 0; i < 3; ++i)
+          f[k][i] = factor * (P(i, 0) * g[k][0] + P(i, 1) * g[k][1] + P(i, 2) * g[k][2]);
+      return f;
+    }
+
+
+    /** What forces on the corners of one point are on the nodes. */
+    inline NodalPack
+    to_nodes(const Cells::NodalPack &f, const unsigned int point)
+    {
+      NodalPack values;
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        {
+          const unsigned int v = corners[a][0], w = corners[a][1];
+          for (unsigned int i = 0; i < 3; ++i)
+            {
+              values[a][i] = slope(a, v, point) * f[v][i];
+              if (v != w)
+                values[a][i] += slope(a, w, point) * f[w][i];
+            }
+        }
+      return values;
+    }
+
+
     /** The transpose of at_points(): what forces on the corners of all points are on the nodes. */
     inline NodalPack
     to_nodes(const PointValues &f)
@@ -177,10 +232,30 @@ namespace Supple
     }
 
 
+    /** The gradients of a field at the points of a batch of quadratic cells. */
+    std::array<Matrix3<Pack>, n_points>
+    gradients(const Cells &cells, std::size_t batch, const double *nodal);
+
+
+    /** F at the points of a batch of quadratic cells. */
+    std::array<Matrix3<Pack>, n_points>
+    deformation_gradients(const Cells &cells, std::size_t batch, const double *displacement);
+
+
     /** The mass matrix of a batch times nodal values. */
     NodalPack
     mass_product(const Pack &mass, bool lumped, const NodalPack &values);
   } // namespace Quadratic
+
+
+  /** The gradients of a field at the points of a batch of cells, linear or quadratic. */
+  std::vector<Matrix3<Pack>>
+  gradients(const Cells &cells, std::size_t batch, const double *nodal);
+
+
+  /** The same of the deformed place, F. */
+  std::vector<Matrix3<Pack>>
+  deformation_gradients(const Cells &cells, std::size_t batch, const double *displacement);
 } // namespace Supple
 
 #endif

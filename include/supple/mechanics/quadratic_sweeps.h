@@ -23,6 +23,7 @@ namespace Supple
   public:
     QuadraticSweeps(const Formulas &formulas, const Cells &cells)
       : LawOf<Formulas>(formulas, cells)
+      , volume_stiffness(cells)
     {
     }
 
@@ -51,7 +52,7 @@ namespace Supple
           {
             const Batch point     = cells.point(b, q);
             const Matrix3<Pack> R = this->rotation_of(rotations.current, n_points * b + q);
-            f[q]                  = divergence(point,
+            f[q]                  = Quadratic::divergence(point,
                               R * formulas.stress(point, R, deformation_gradient(point, W[q])),
                               point.volume);
           }
@@ -93,7 +94,7 @@ namespace Supple
     bool
     tangent_is_frozen() const override
     {
-      return turning.empty();
+      return turning.empty() && volume_stiffness.empty();
     }
 
     void
@@ -109,8 +110,8 @@ namespace Supple
           {
             const Batch point     = cells.point(b, q);
             const Matrix3<Pack> R = this->rotation_of(rotations.current, n_points * b + q);
-            f[q]                  = divergence(point,
-                              R * formulas.stress_change(point, R, gradient(point, W[q])),
+            f[q]                  = Quadratic::divergence(point,
+                              R * formulas.stress_change(point, R, Quadratic::gradient(point, W[q])),
                               factor * point.volume);
           }
         Quadratic::scatter(cells.nodes_of(b), Quadratic::to_nodes(f), y);
@@ -146,7 +147,8 @@ namespace Supple
                        double frozen,
                        double turning_factor,
                        const CellSlots &slots,
-                       SymmetricBlockMatrix &A) const override;
+                       SymmetricBlockMatrix &A,
+                       double added_bulk) const override;
 
     std::size_t
     n_turned(const CellRotations &rotations, const double angle) const override
@@ -184,35 +186,12 @@ namespace Supple
     }
 
     static Matrix3<Pack>
-    gradient(const Batch &point, const NodalPack &W)
-    {
-      Matrix3<Pack> G;
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
-          G(i, j) = W[0][i] * point.gradients[0][j] + W[1][i] * point.gradients[1][j] +
-                    W[2][i] * point.gradients[2][j] + W[3][i] * point.gradients[3][j];
-      return G;
-    }
-
-    static Matrix3<Pack>
     deformation_gradient(const Batch &point, const NodalPack &W)
     {
-      Matrix3<Pack> F = gradient(point, W);
+      Matrix3<Pack> F = Quadratic::gradient(point, W);
       for (unsigned int i = 0; i < 3; ++i)
         F(i, i) += 1.;
       return F;
-    }
-
-    /** factor P g_k at the corners. */
-    static NodalPack
-    divergence(const Batch &point, const Matrix3<Pack> &P, const Pack &factor)
-    {
-      const auto &g = point.gradients;
-      NodalPack f;
-      for (unsigned int k = 0; k < 4; ++k)
-        for (unsigned int i = 0; i < 3; ++i)
-          f[k][i] = factor * (P(i, 0) * g[k][0] + P(i, 1) * g[k][1] + P(i, 2) * g[k][2]);
-      return f;
     }
 
     NodalPack
@@ -232,6 +211,24 @@ namespace Supple
       for (unsigned int q = 0; q < n_points; ++q)
         turned = turned || LawOf<Formulas>::has_turned(rotations, n_points * b + q, bound);
       return turned;
+    }
+
+    /** The columns of the part of corners k, l in the second derivative of det F at a point. */
+    std::array<std::array<Pack, 3>, 3>
+    swelling_block(const std::size_t place,
+                   const Batch &point,
+                   const unsigned int k,
+                   const unsigned int l) const
+    {
+      std::array<std::array<Pack, 3>, 3> columns;
+      for (unsigned int j = 0; j < 3; ++j)
+        {
+          NodalPack unit{};
+          unit[l][j] = Pack(1.);
+          const Matrix3<Pack> P = volume_stiffness.stress(place, Quadratic::gradient(point, unit));
+          columns[j]            = Quadratic::divergence(point, P, Pack(1.))[k];
+        }
+      return columns;
     }
 
     void
@@ -265,6 +262,7 @@ namespace Supple
               double *values);
 
     std::vector<typename Formulas::Turning> turning; ///< of the points; empty for frozen rotations
+    VolumeStiffness volume_stiffness;                ///< empty but for determinants
   };
 
 
@@ -297,8 +295,13 @@ namespace Supple
   QuadraticSweeps<Formulas>::update_tangent(const Tangent tangent,
                                             const CellRotations &rotations,
                                             const double *displacement,
-                                            const MeanStress *const)
+                                            const MeanStress *const mean_stress)
   {
+    const bool by_determinant = mean_stress && mean_stress->measure == VolumeMeasure::determinant;
+    volume_stiffness.clear();
+    if (tangent == Tangent::consistent && by_determinant)
+      volume_stiffness.update(displacement, mean_stress->of_points);
+
     if (tangent == Tangent::frozen || this->is_linear())
       {
         turning.clear();
@@ -310,11 +313,16 @@ namespace Supple
       for (unsigned int q = 0; q < n_points; ++q)
         {
           const Batch point = cells.point(b, q);
+          Pack s(0.);
+          if (mean_stress && !by_determinant)
+            cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
+              s[lane] = mean_stress->of_points[n_points * cell + q];
+            });
           turning[n_points * b + q] =
             formulas.turning(point,
                              this->rotation_of(rotations.current, n_points * b + q),
                              deformation_gradient(point, W[q]),
-                             Pack(0.),
+                             s,
                              tangent == Tangent::definite);
         }
     });
@@ -328,17 +336,28 @@ namespace Supple
                                                  const double *w,
                                                  double *y) const
   {
-    if (turning.empty())
+    if (tangent_is_frozen())
       return;
     cells.for_batches_in_turn([&](const std::size_t b) {
       const auto W = corner_values(b, w);
-      Quadratic::PointValues f;
+      Quadratic::PointValues f{};
       for (unsigned int q = 0; q < n_points; ++q)
         {
           const std::size_t place = n_points * b + q;
-          f[q]                    = formulas.turning_product(turning[place],
-                                          rotated_gradients(rotations, place, cells.point(b, q)),
-                                          W[q]);
+          const Batch point       = cells.point(b, q);
+          if (!turning.empty())
+            f[q] = formulas.turning_product(turning[place],
+                                            rotated_gradients(rotations, place, point),
+                                            W[q]);
+          if (!volume_stiffness.empty())
+            {
+              const Matrix3<Pack> P =
+                volume_stiffness.stress(place, Quadratic::gradient(point, W[q]));
+              const NodalPack swell = Quadratic::divergence(point, P, Pack(1.));
+              for (unsigned int k = 0; k < 4; ++k)
+                for (unsigned int i = 0; i < 3; ++i)
+                  f[q][k][i] += swell[k][i];
+            }
           for (auto &of_corner : f[q])
             for (Pack &component : of_corner)
               component *= factor;
@@ -384,20 +403,24 @@ namespace Supple
   {
     const typename Formulas::template Blocks<false> blocks(
       point, nullptr, rotated_gradients(rotations, place, point), frozen, added_bulk);
-    const bool turns = !turning.empty();
+    const bool turns = !turning.empty(), swells = !volume_stiffness.empty();
     for (unsigned int k = 0; k < 4; ++k)
       for (unsigned int l = 0; l <= k; ++l)
         {
           const Pack diagonal = blocks.shear(k, l);
-          std::array<std::array<Pack, 3>, 3> turn;
+          std::array<std::array<Pack, 3>, 3> turn, swell;
           if (turns)
             turn = formulas.turning_block(turning[place], blocks.h[k], blocks.h[l]);
+          if (swells)
+            swell = swelling_block(place, point, k, l);
           for (unsigned int i = 0; i < 3; ++i)
             for (unsigned int j = 0; j < 3; ++j)
               {
                 Pack entry = blocks.entry(k, l, i, j, diagonal);
                 if (turns)
                   entry += turning_factor * turn[j][i];
+                if (swells)
+                  entry += turning_factor * swell[j][i];
                 K[k][l][3 * i + j] = entry;
                 if (k != l)
                   K[l][k][3 * j + i] = entry;
@@ -496,7 +519,8 @@ namespace Supple
                                                 const double frozen,
                                                 const double turning_factor,
                                                 const CellSlots &slots,
-                                                SymmetricBlockMatrix &A) const
+                                                SymmetricBlockMatrix &A,
+                                                const double added_bulk) const
   {
     // A function that is linear in a cell has the same corner values at all points: itself.
     cells.for_batches_in_turn([&](const std::size_t b) {
@@ -509,7 +533,7 @@ namespace Supple
                             cells.point(b, q),
                             frozen,
                             turning_factor,
-                            0.,
+                            added_bulk,
                             q == 0 ? sum : K);
           for (unsigned int k = 0; k < 4 && q > 0; ++k)
             for (unsigned int l = 0; l <= k; ++l)

@@ -14,9 +14,9 @@ namespace Supple
   /** What patches know of a cell. */
   struct PatchCell
   {
-    std::vector<unsigned int> nodes; ///< local numbers, three or four
+    std::vector<unsigned int> nodes; ///< local numbers, three or four; none of a quadratic cell
     unsigned int patch;              ///< number on all processes
-    double bulk;                     ///< bulk modulus kappa [Pa], the same in all of a patch
+    double bulk;                     ///< kappa of the patch [Pa], the same in all of it
   };
 
 
@@ -35,16 +35,26 @@ namespace Supple
    * here but with the rotations, in Law. The tangent may lag: it has the c_P of the last keep(), if
    * there was one.
    *
+   * In quadratic cells the mean stress of a patch is linear, s = sum_k s_Pk psi_k, and the sums are
+   * those over the points of its cells, each with psi_k there: 1 and three linear functions that
+   * are orthogonal, sum V psi_k psi_l = W_P delta_kl. So each function has a Theta_Pk of its own
+   * and adds to energy, force and tangent as a patch does; the members below count functions. The
+   * cells keep a bulk modulus of 2/3 mu, for inside a patch there are volumes that no psi_k sees,
+   * and kappa is that of the material less this one.
+   *
    * Each process computes Theta of its own patches, all cells of which it has, and learns that of
    * the patches next to them; the forces of these on its own nodes it knows by itself.
    */
   class VolumetricPatches
   {
   public:
+    /** What quadratic cells keep of their resistance to a change of volume, over mu. */
+    static constexpr double bulk_of_quadratic_cells = 2. / 3.;
+
     /**
      * @param cells       in the same order and with the same nodes as @p list
      * @param n_owned     own nodes: forces of others mean nothing
-     * @param partitioner of the patches
+     * @param partitioner of the functions of the patches, one or four of each in a row
      */
     VolumetricPatches(const Cells &cells,
                       const std::vector<PatchCell> &list,
@@ -72,18 +82,22 @@ namespace Supple
     double
     energy(const double *displacement) const;
 
-    /** s_P of each cell [Pa], owned or not. */
+    /** s_P at each point of each cell [Pa], owned or not. */
     std::vector<double>
     mean_stress(const double *displacement) const;
 
-    /** How much a cell and its patch have grown. */
+    /** The same, mean over each cell [Pa]. */
+    std::vector<double>
+    mean_stress_of_cells(const double *displacement) const;
+
+    /** How much a point of a cell and its patch there have grown. */
     struct Growth
     {
       double cell;  ///< theta_e
-      double patch; ///< Theta_P
+      double patch; ///< Theta_P, or sum_k Theta_Pk psi_k
     };
 
-    /** Of each cell, owned or not, by a displacement. */
+    /** At each point of each cell, owned or not, by a displacement. */
     std::vector<Growth>
     growth(const double *displacement) const;
 
@@ -97,7 +111,8 @@ namespace Supple
 
     const VolumeMeasure measure;
 
-    /** One number for each patch: this process's own ones, then those next to them. */
+    /** One number for each function: those of this process's own patches, then those of the patches
+     * next to them. */
     const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
 
     /** kappa / W_P [Pa/m^3] */
@@ -150,6 +165,25 @@ namespace Supple
     void
     find_nodes(const std::vector<PatchCell> &list);
 
+    /** Nodes of a cell in the order of VolumeChanges. */
+    std::vector<unsigned int>
+    nodes_of(const PatchCell &cell, std::size_t number) const;
+
+    /** psi_k at the points of quadratic cells. */
+    void
+    find_functions();
+
+    /** psi_k at a point, of whatever cell. */
+    double
+    function(const std::size_t point, const unsigned int k) const
+    {
+      return functions.empty() ? 1. : functions[n_functions * point + k];
+    }
+
+    /** sum_k psi_k at a point times a number of each function. */
+    double
+    value_at(std::size_t point, const double *of_functions) const;
+
     /** @param constant_part 1 for a displacement, 0 for a change of it */
     std::vector<Growth>
     growth(const double *w, double constant_part) const;
@@ -162,15 +196,17 @@ namespace Supple
 
     const Cells &cells;
     const unsigned int n_owned; ///< nodes
-    std::vector<VolumeChange> changes;
-    std::vector<unsigned int> patch_of;             ///< of each cell, local number
-    std::vector<std::array<std::size_t, 4>> places; ///< of each cell's nodes in gradient
-    std::vector<std::size_t> start;                 ///< of each patch in node and gradient
+    const unsigned int n_points, n_functions;
+    VolumeChanges changes;
+    std::vector<unsigned int> patch_of; ///< of each cell, local number of its first function
+    std::vector<std::size_t> places;    ///< of each cell's nodes in gradient, for that function
+    std::vector<std::size_t> start;     ///< of each function in node and gradient
     std::vector<unsigned int> node;
+    std::vector<double> functions;              ///< psi_k of each point; none: 1
     Gradients gradient;                         ///< c_P of the last update()
     Gradients kept_gradient;                    ///< c_P of the last keep(); none: those above
     std::vector<double> bulk, volume, constant; ///< kappa, W_P and W_P Theta_P without c_P.u
-    mutable Vector change;                      ///< of patches, at hand
+    mutable Vector change;                      ///< of functions, at hand
   };
 } // namespace Supple
 

@@ -64,8 +64,8 @@ namespace Supple
     std::vector<unsigned int> serial_vertex;      ///< their indices in the whole mesh
     std::vector<unsigned int> parts;              ///< those of the body that they are in
 
-    /** Of the patches, all cells of which are on one process: those of its cells and, as ghosts,
-     * those of its ghost cells. Null if the mesh has none. */
+    /** Of the functions of the patches, all cells of which are on one process: those of its cells
+     * and, as ghosts, those of its ghost cells. Null if the mesh has none. */
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> patch_partitioner;
 
     /** Of quadratic cells, the middle nodes of the edges in the order of tetrahedron_edges, by
@@ -84,6 +84,14 @@ namespace Supple
     is_quadratic() const
     {
       return !cell_middles.empty();
+    }
+
+    /** How many functions the mean stress of a patch is made of: a constant or, in quadratic cells,
+     * all linear ones. */
+    unsigned int
+    n_functions_of_patch() const
+    {
+      return is_quadratic() ? 4 : 1;
     }
 
   private:

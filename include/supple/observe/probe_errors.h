@@ -85,12 +85,12 @@ namespace Supple
     }
 
   private:
-    /** Nine entries of a matrix of each cell, with one more number, in two fields. */
+    /** Nine entries of a matrix of each point, with one more number, in two fields. */
     using MatrixField = std::array<Recovery::Field, 2>;
 
     /** @param more the number beside the matrix; empty if there is none */
     MatrixField
-    recover(const std::vector<Matrix3<Pack>> &of_batches, const std::vector<double> &more) const;
+    recover(const std::vector<Matrix3<Pack>> &of_points, const std::vector<double> &more) const;
 
     void
     prepare(Forces &forces);
@@ -103,7 +103,7 @@ namespace Supple
     void
     solve(const Probes::Component &component);
 
-    /** G, with the change of volume of the patch. */
+    /** G of each point of each batch, with the change of volume of the patch. */
     std::vector<Matrix3<Pack>>
     dual_gradient(const double *z, const std::vector<VolumetricPatches::Growth> &growth) const;
 

@@ -10,7 +10,7 @@
 
 namespace Supple
 {
-  /** Up to eight numbers of a cell or a vertex, computed side by side. */
+  /** Up to eight numbers of a point or a vertex, computed side by side. */
   struct Octet
   {
     Lanes<double, 6> lanes;
@@ -18,10 +18,14 @@ namespace Supple
 
 
   /**
-   * Superconvergent patch recovery (Zienkiewicz and Zhu 1992): from values that are constant in
-   * each cell it makes continuous ones, x*, linear in each cell. The value at a vertex is that of
-   * the linear polynomial that fits best, in the mean square weighted by the volume, the cells
-   * around the vertex at their centroids. A linear field is recovered exactly.
+   * Superconvergent patch recovery (Zienkiewicz and Zhu 1992): from values at the points of the
+   * cells, one or four, it makes continuous ones, x*. The value at a vertex is that of the linear
+   * polynomial that fits best, in the mean square weighted by the volume, the points of the cells
+   * around the vertex. A linear field is recovered exactly.
+   *
+   * In linear cells x is constant, and x* linear between the vertices. In quadratic ones x is
+   * linear through the four points, and x* quadratic: in the middle of an edge it is the mean of
+   * the polynomials of both ends.
    *
    * Where too few cells meet for that, on edges and at corners, the polynomial is the mean of those
    * of the neighbours along edges; where these have too few as well, it is found after theirs.
@@ -35,16 +39,23 @@ namespace Supple
     /** Collective. */
     explicit Recovery(const Body &body);
 
+    /** The linear polynomial of a site, about its vertex. */
+    struct Fit
+    {
+      Octet value;
+      std::array<Octet, 3> slopes; ///< along x, y, z
+    };
+
     /** A field and what is recovered of it. */
     struct Field
     {
-      std::vector<Octet> of_cells; ///< in the order of Body::cell_nodes
-      std::vector<Octet> of_sites;
+      std::vector<Octet> of_points; ///< cell by cell, in the order of Body::cell_nodes
+      std::vector<Fit> of_sites;
     };
 
-    /** Collective. @param of_cells of all cells of this process, owned or not */
+    /** Collective. @param of_points of all cells of this process, owned or not */
     Field
-    recover(std::vector<Octet> of_cells) const;
+    recover(std::vector<Octet> of_points) const;
 
     /** Whether there are enough cells around each site or around one beside it; where there are
      * not, nothing is recovered that differs from the cells. */
@@ -65,35 +76,42 @@ namespace Supple
     Octet
     product(const Field &x, const Field &y, std::size_t cell) const;
 
-    /** The mean of x* - x over a cell. */
+    /** x* - x at a point of a quadratic cell; the mean over a linear one. */
     Octet
-    mean_difference(const Field &x, std::size_t cell) const;
+    difference_at(const Field &x, std::size_t cell, unsigned int point) const;
 
     /** Volume of a cell [m^3]. */
     double
-    volume(const std::size_t cell) const
+    volume(std::size_t cell) const;
+
+    /** As much of it as a point stands for [m^3]. */
+    double
+    volume(const std::size_t cell, const unsigned int point) const
     {
-      return geometry[cell].volume;
+      return points[n_points * cell + point].volume;
     }
 
   private:
     using Place = std::array<double, 3>;
 
-    struct Geometry
+    struct Point
     {
-      Place centroid;
-      double volume;
+      Place place;
+      double volume; ///< as much of that of the cell as it stands for
     };
 
-    /** The linear polynomial of a site, about its vertex. */
-    struct Fit
-    {
-      Octet value;
-      std::array<Octet, 3> slopes; ///< along x, y, z
-    };
+    /** A field at the nodes of a cell, in the order of Quadratic::corners for a quadratic one. */
+    using NodalOctets = std::array<Octet, 10>;
+
+    /** The vertices of a cell; of a quadratic one in the order of its points. */
+    std::array<unsigned int, 4>
+    corners(std::size_t cell) const;
 
     void
-    measure_cells();
+    place_points();
+
+    void
+    place_quadratic_points();
 
     /** The materials of each node, as its owner knows them. */
     void
@@ -114,14 +132,21 @@ namespace Supple
     site_of(unsigned int node, unsigned int material) const;
 
     Fit
-    fit(std::size_t site, const std::vector<Octet> &of_cells) const;
+    fit(std::size_t site, const std::vector<Octet> &of_points) const;
 
     /** The mean of the polynomials of the neighbours of a poor site. */
     Fit
     mean_of_neighbours(std::size_t poor, const std::vector<Fit> &fits) const;
 
-    std::array<Octet, 4>
+    /** x* - x at the nodes of a cell. */
+    NodalOctets
     differences(const Field &x, std::size_t cell) const;
+
+    NodalOctets
+    quadratic_differences(const Field &x, std::size_t cell) const;
+
+    Octet
+    quadratic_product(const NodalOctets &d, const NodalOctets &e, std::size_t cell) const;
 
     /** Of each node of a cell of an axisymmetric body, over that of the centroid. */
     std::array<double, 3>
@@ -129,8 +154,9 @@ namespace Supple
 
     const Body &body;
     const Halo halo;
-    const unsigned int n_nodes; ///< of a cell
-    std::vector<Geometry> geometry;
+    const unsigned int n_nodes;  ///< of a cell, without the middles of edges
+    const unsigned int n_points; ///< of a cell
+    std::vector<Point> points;   ///< cell by cell
     unsigned int n_slots = 1;            ///< sites of a node
     std::vector<unsigned int> materials; ///< of each site; ascending at a node, padded
     std::vector<std::array<std::uint32_t, 4>> sites_of_cells;

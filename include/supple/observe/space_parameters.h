@@ -20,7 +20,8 @@ namespace Supple
     {
       none,
       coarser, ///< cells twice as large
-      finer    ///< each cell cut in eight, or four triangles
+      finer,   ///< each cell cut in eight, or four triangles
+      linear   ///< linear cells on the vertices of quadratic ones
     };
 
     Estimate estimate      = Estimate::end;

@@ -23,10 +23,14 @@ namespace Supple
    *
    * at the vertices that both meshes have. A third run on cells four times as large tells p, by the
    * largest distances over the run (Roache 1998). Without one 1.6 is taken, for linear cells have 2
-   * where the stress is smooth and less at edges; and so where the two coarser runs are farther
-   * apart than a fifth of the motion, for such meshes are too coarse for any order. Where the first
-   * two are farther apart than half of it, as swings are that have lost their phase, or distances
-   * do not shrink from mesh to mesh, the error is known from below alone.
+   * where the stress is smooth and less at edges, and 1.5 for quadratic ones, which have 3 at best
+   * and at edges no more than linear ones; and so where the two coarser runs are farther apart than
+   * a fifth of the motion, for such meshes are too coarse for any order. Where the first two are
+   * farther apart than half of it, as swings are that have lost their phase, or distances do not
+   * shrink from mesh to mesh, the error is known from below alone.
+   *
+   * Quadratic cells have a third companion, linear cells on the same vertices: the distance is the
+   * error of those, of which quadratic cells have a small part.
    */
   class SecondMesh : public Listener
   {
@@ -119,6 +123,16 @@ namespace Supple
     seconds() const;
 
   private:
+    /** How the error falls with the size of the cells. */
+    struct Orders
+    {
+      double assumed; ///< where it is not observed
+      double largest; ///< where all is smooth
+    };
+
+    Orders
+    orders() const;
+
     /** Displacements by vertex, on the first process [m]. */
     using Values = std::vector<double>;
 

@@ -131,6 +131,10 @@ namespace Supple
     void
     assemble(SymmetricBlockMatrix &matrix, double added_bulk) const;
 
+    /** What bounded matrices have added, in shear moduli. */
+    double
+    bounded_bulk() const;
+
     /** Whether A is made of this already. */
     bool
     is_made_of(const TangentFactors &wanted, double wanted_diagonal) const;
