@@ -38,7 +38,7 @@ build() {
   if [ ! -f "$folder/build.ninja" ]; then
     echo "Configuring $folder" >&2
     log=$(cmake -S "$root" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSUPPLE_NATIVE=ON \
-                "-DCMAKE_CXX_COMPILER_LAUNCHER=env;CCACHE_SLOPPINESS=pch_defines,time_macros;ccache" "$@" 2>&1) || { echo "$log" >&2; exit 1; }
+                "-DCMAKE_CXX_COMPILER_LAUNCHER=env;CCACHE_INODECACHE=1;CCACHE_SLOPPINESS=pch_defines,time_macros;ccache" "$@" 2>&1) || { echo "$log" >&2; exit 1; }
   fi
   if ! ninja -C "$folder" -n 2>&1 | grep -q "no work to do"; then
     echo "Building $folder (a few minutes the first time)" >&2

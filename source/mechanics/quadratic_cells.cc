@@ -47,7 +47,7 @@ namespace Supple
 
 
   std::vector<Matrix3<Pack>>
-  gradients(const Cells &cells, const std::size_t batch, const double *nodal)
+  gradients_at_points(const Cells &cells, const std::size_t batch, const double *nodal)
   {
     if (!cells.is_quadratic())
       return {cells.gradient(batch, Cells::gather(cells.batch(batch), nodal))};
@@ -57,7 +57,7 @@ namespace Supple
 
 
   std::vector<Matrix3<Pack>>
-  deformation_gradients(const Cells &cells, const std::size_t batch, const double *displacement)
+  deformation_gradients_at_points(const Cells &cells, const std::size_t batch, const double *displacement)
   {
     if (!cells.is_quadratic())
       return {cells.deformation_gradient(batch, displacement)};

@@ -49,7 +49,7 @@ namespace Supple
     cells.for_batches([&](const std::size_t b) {
       std::vector<Matrix3<Pack>> F;
       if (patches)
-        F = deformation_gradients(cells, b, u.data());
+        F = deformation_gradients_at_points(cells, b, u.data());
       for (unsigned int q = 0; q < n_points; ++q)
         {
           const std::size_t place = n_points * b + q;

@@ -1,6 +1,7 @@
 #include <supple/observe/point_forces.h>
 
 #include <supple/mechanics/selection.h>
+#include <supple/mesh/serial_mesh.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -41,14 +42,24 @@ namespace Supple
   {
     const unsigned int n_nodes = body.cells->n_nodes;
     std::vector<bool> alone(nodes.begin(), nodes.begin() + body.n_owned);
-    for (const auto &cell : body.cell_nodes)
+    for (std::size_t c = 0; c < body.cell_nodes.size(); ++c)
       {
-        unsigned int n_chosen = 0;
+        const auto &cell      = body.cell_nodes[c];
+        unsigned int n_chosen = 0; // of the vertices
         for (unsigned int a = 0; a < n_nodes; ++a)
           n_chosen += nodes[cell[a]];
-        for (unsigned int a = 0; a < n_nodes && n_chosen + 1 >= n_nodes; ++a)
+        if (n_chosen + 1 < n_nodes)
+          continue;
+        for (unsigned int a = 0; a < n_nodes; ++a)
           if (nodes[cell[a]] && cell[a] < body.n_owned)
             alone[cell[a]] = false;
+        for (unsigned int e = 0; e < 6 && body.is_quadratic(); ++e)
+          {
+            const auto &[v, w]        = tetrahedron_edges[e];
+            const unsigned int middle = body.cell_middles[c][e];
+            if (nodes[cell[v]] && nodes[cell[w]] && middle < body.n_owned)
+              alone[middle] = alone[middle] && !nodes[middle];
+          }
       }
     return alone;
   }

@@ -128,11 +128,11 @@ namespace Supple
     std::vector<Matrix3<Pack>> all(n_points * cells.n_batches());
     const GhostValues u(configuration.displacement());
     cells.for_batches([&](const std::size_t b) {
-      const auto of_batch = gradients(cells, b, z);
+      const auto of_batch = gradients_at_points(cells, b, z);
       std::copy(of_batch.begin(), of_batch.end(), all.begin() + n_points * b);
       if (growth_of_dual.empty())
         return;
-      const auto F = deformation_gradients(cells, b, u.data());
+      const auto F = deformation_gradients_at_points(cells, b, u.data());
       for (unsigned int q = 0; q < n_points; ++q)
         {
           const std::size_t place = n_points * b + q;

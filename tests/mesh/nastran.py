@@ -58,7 +58,7 @@ for first, second in [("6", "               7       8       9      10"), ("6+", 
     accepted(nodes + line, LEFT_OUT, warnings=1)
     accepted(nodes + "CTETRA,1,1,1,2,3,4,5,6,\n,7,8,9,10\n", LEFT_OUT, warnings=1)
     accepted(nodes + "CTETRA,1,1,1,2,3,4,5,6,+\n+,7,8,9,10\n", LEFT_OUT, warnings=1)
-refused(nodes + "CTETRA,1,1,1,2,3,4,5,6,\n,7,,9,10\n", "has the node 0, which is not in the file")
+refused(nodes + "CTETRA,1,1,1,2,3,4,5,6,\n,7,,9,10\n", "in field 11 is not a whole number")
 refused(GRIDS + CELLS + "CHEXA,9,1,1,2,3,4,5,6,+\n+,7,8\n", "1 of the kind CHEXA")
 accepted(GRIDS + CELLS + FACES + "CQUAD4,9,7,1,2,3,4\n", ["Elements of the surface that are not read: 1 of the kind CQUAD4."], warnings=1)
 accepted(GRIDS + CELLS + FACES + "RBE2,9,1,123,2,3\n", ["RBE2 (1)"], warnings=1)

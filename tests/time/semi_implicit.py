@@ -3,6 +3,7 @@
 import math
 import pathlib
 import sys
+import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import runner
@@ -53,7 +54,7 @@ def growth():
     swung = {**QUIET, "Start/Velocity": "0; 0; -40"}
     exact = simulate({**swung, **steps("esdirk5", 800, 0.7)})
     for method in ORDERS:
-        status, _, error = runner.run(runner.BAR, "--quiet", "--output", "/tmp/none/../supple-growth",
+        status, _, error = runner.run(runner.BAR, "--quiet", "--output", tempfile.mkdtemp(prefix="supple-"),
                                       *runner.overrides({**swung, **steps(method, 10, 0.7)}))
         print(error)
         runner.check(status == 2, f"{method}: exit status {status}: {error}")

@@ -250,12 +250,12 @@ namespace Supple
 
   /** The gradients of a field at the points of a batch of cells, linear or quadratic. */
   std::vector<Matrix3<Pack>>
-  gradients(const Cells &cells, std::size_t batch, const double *nodal);
+  gradients_at_points(const Cells &cells, std::size_t batch, const double *nodal);
 
 
   /** The same of the deformed place, F. */
   std::vector<Matrix3<Pack>>
-  deformation_gradients(const Cells &cells, std::size_t batch, const double *displacement);
+  deformation_gradients_at_points(const Cells &cells, std::size_t batch, const double *displacement);
 } // namespace Supple
 
 #endif
