@@ -278,29 +278,79 @@ namespace Supple
   }
 
 
+  bool
+  StaticEquilibrium::is_balanced(const double load_factor) const
+  {
+    return free_residual.l2_norm() <=
+           model.time.newton_tolerance * size_of_forces(load_factor) + force_accuracy;
+  }
+
+
+  bool
+  StaticEquilibrium::reach_by_foreseen_strains(const double load_factor, StepReport &report)
+  {
+    constexpr unsigned int most_corrections = 8;
+    constexpr double too_far                = 1e10; // times what was out of balance at first
+
+    const Tangent choice = model.time.tangent;
+    if (!model.forces.have_energy() || choice == Tangent::frozen || choice == Tangent::definite)
+      return false;
+    Configuration &configuration   = model.configuration;
+    Vector &displacement           = configuration.state.displacement;
+    const Vector start             = displacement;
+    const double energy_at_first   = model.forces.energy(configuration, 1., load_factor);
+    const double balance_at_first  = free_residual.l2_norm();
+    const unsigned int n_inverted_before = n_inverted();
+    const unsigned int most = std::min(most_corrections, model.time.newton_limit);
+    bool goes_on            = true;
+    try
+      {
+        for (unsigned int n = 0; goes_on && n < most && !is_balanced(load_factor); ++n)
+          {
+            assemble(Tangent::consistent, load_factor);
+            report.linear_iterations += model.solver.solve(correction, free_residual);
+            ++report.newton_iterations;
+            ++model.effort.newton_iterations;
+            configuration.foresee_strains();
+            displacement += correction;
+            update_residual(load_factor);
+            goes_on =
+              all_finite(residual) && free_residual.l2_norm() < too_far * balance_at_first;
+          }
+      }
+    catch (const ComputationError &)
+      {
+        goes_on = false;
+      }
+    configuration.forget_strains();
+    if (goes_on && is_balanced(load_factor) && n_inverted() <= n_inverted_before &&
+        (loads_follow || model.forces.energy(configuration, 1., load_factor) <= energy_at_first))
+      return true;
+    displacement = start;
+    update_residual(load_factor);
+    return false;
+  }
+
+
   void
   StaticEquilibrium::find_equilibrium(const double load_factor, StepReport &report)
   {
-    const TimeParameters &settings = model.time;
-    const bool linear              = model.forces.are_linear();
+    const bool linear = model.forces.are_linear();
 
     if (model.constraints.move())
       model.constraints.set_displacement(model.configuration.state.displacement, load_factor);
     update_residual(load_factor);
     forces_at_start = residual.l2_norm();
-    for (;;)
+    if (!linear && all_finite(residual) && reach_by_foreseen_strains(load_factor, report))
+      return;
+    for (unsigned int n = 0;; ++n)
       {
         if (!all_finite(residual))
           throw ComputationError("the forces are not finite any more");
-
-        // What is out of balance is small beside the loads and the reactions, or beside round-off.
-        const double size    = size_of_forces(load_factor);
-        const double balance = free_residual.l2_norm();
-        if (linear ? report.newton_iterations == 1
-                   : balance <= settings.newton_tolerance * size + force_accuracy)
+        if (linear ? n == 1 : is_balanced(load_factor))
           return;
-        if (report.newton_iterations == settings.newton_limit)
-          throw_not_converged(balance / size);
+        if (n == model.time.newton_limit)
+          throw_not_converged(free_residual.l2_norm() / size_of_forces(load_factor));
 
         report.linear_iterations += find_correction(load_factor);
         add_correction(load_factor);

@@ -66,6 +66,22 @@ namespace Supple
     std::vector<Vector *>
     vectors();
 
+    /** From the next update_rotations() on the tangent takes its strains by the rotations of the
+     * update before: sym(R_before^T F) - I is the strain that the correction foresaw, without the
+     * stretch that comes of going straight where the body turns. */
+    void
+    foresee_strains()
+    {
+      rotations.before = rotations.current;
+    }
+
+    /** The tangent takes its strains by the rotations of now. */
+    void
+    forget_strains()
+    {
+      rotations.before.clear();
+    }
+
     /** R of every cell from the displacement, and with them the gradients of the volume of patches;
      * nothing to do for linear elasticity. */
     void

@@ -105,11 +105,13 @@ namespace Supple
       return batch.mu * norm_square(e) + 0.5 * batch.lambda * tr * tr;
     }
 
-    /** @param mean_stress that is not the cell's own, in the measure `trace` [Pa]
+    /** @param R_of_strain of S in H; R, or an older one
+     * @param mean_stress that is not the cell's own, in the measure `trace` [Pa]
      * @param definite  whether H is projected */
     static Turning
     turning(const Batch &batch,
             const Matrix3<Pack> &R,
+            const Matrix3<Pack> &R_of_strain,
             const Matrix3<Pack> &F,
             const Pack &mean_stress,
             bool definite);
@@ -263,13 +265,14 @@ namespace Supple
   inline Corotational::Turning
   Corotational::turning(const Batch &batch,
                         const Matrix3<Pack> &R,
+                        const Matrix3<Pack> &R_of_strain,
                         const Matrix3<Pack> &F,
                         const Pack &mean_stress,
                         const bool definite)
   {
     namespace stdx = std::experimental;
 
-    const Matrix3<Pack> S       = rotated_back(R, F);
+    const Matrix3<Pack> S       = rotated_back(R_of_strain, F);
     const SymmetricEigen eigen  = symmetric_eigen(S);
     const Matrix3<Pack> rotated = R * eigen.vectors;
     const Pack c                = 2. * batch.mu - batch.lambda * (trace(S) - 3.) - mean_stress;

@@ -17,6 +17,14 @@ namespace Supple
 
     List current; ///< of the last update; none: R = I
     List kept;    ///< what the operator was made with, where it may lag; none: those above
+    List before;  ///< of Newton's correction before, with which strains are foreseen; none: none
+
+    /** Those by which the tangent takes its strains, see Configuration::foresee_strains(). */
+    const List &
+    of_strain() const
+    {
+      return before.empty() ? current : before;
+    }
 
     /** Those that the frozen tangent is made with. */
     const List &

@@ -83,7 +83,8 @@ namespace Supple
    *   energy_density(batch, R, F)                 [J/m^3]
    *   stress_change(batch, R, dF), Blocks         the part of the tangent with R held; Blocks has
    * h, shear(), entry() and hoop_stiffness rotated_gradients(batch, R)                 h_a = R g_a
-   *   Turning, turning(batch, R, F, mean_stress, definite), turning_product(), turning_block()
+   *   Turning, turning(batch, R, R of the strain, F, mean_stress, definite), turning_product(),
+   * turning_block()
    *                                               the rest of it, which can be projected
    *
    * Stiffness damping counts on a stress that is linear in F with R held, up to a constant.
@@ -445,6 +446,7 @@ namespace Supple
           });
         turning[b] = formulas.turning(cells.batch(b),
                                       rotation_of(rotations.current, b),
+                                      rotation_of(rotations.of_strain(), b),
                                       cells.deformation_gradient(b, displacement),
                                       s,
                                       tangent == Tangent::definite);

@@ -321,6 +321,7 @@ namespace Supple
           turning[n_points * b + q] =
             formulas.turning(point,
                              this->rotation_of(rotations.current, n_points * b + q),
+                             this->rotation_of(rotations.of_strain(), n_points * b + q),
                              deformation_gradient(point, W[q]),
                              s,
                              tangent == Tangent::definite);

@@ -9,10 +9,15 @@ namespace Supple
    * Equilibrium f_int(u) = s f under the loads at time 1, with the load factor s growing in steps
    * to 1.
    *
-   * Each step is Newton's method with the consistent tangent of polar rotations; where that does
-   * not lead downhill in the energy W(u) - s f.u, with its definite projection, which does. A line
-   * search makes sure that a correction does not go too far. Linear elasticity needs one
-   * correction, and one operator for all steps, unless a load follows the body.
+   * Each step is Newton's method with the consistent tangent of polar rotations, at first with the
+   * strains that the correction before foresaw (the mixed integration points of Magisano, Leonetti
+   * and Garcea 2017): a slender body that bends is stretched where it goes straight instead of
+   * around, and the stress of that would spoil the tangent. Its full corrections reach most
+   * equilibria in a few steps. Where they do not, or reach one of more energy than at first or with
+   * more cells inside out, the step begins anew: with the strains as they are or, where that does
+   * not lead downhill in the energy W(u) - s f.u, with the definite projection of the tangent,
+   * which does. A line search makes sure that a correction does not go too far. Linear elasticity
+   * needs one correction, and one operator for all steps, unless a load follows the body.
    *
    * What is out of balance is measured by the loads on the body at rest and by the reactions. Those
    * to a load that follows grow with the displacement without bound: they count up to the forces at
@@ -73,6 +78,15 @@ namespace Supple
     /** Cells inside out; collective. */
     unsigned int
     n_inverted() const;
+
+    /** Whether what is out of balance is small beside the loads and the reactions, or beside
+     * round-off. */
+    bool
+    is_balanced(double load_factor) const;
+
+    /** Newton's method with foreseen strains; false, and nothing changed, if that fails. */
+    bool
+    reach_by_foreseen_strains(double load_factor, StepReport &report);
 
     /** Newton's iterations of one load step. */
     void
