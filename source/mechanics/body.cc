@@ -71,6 +71,13 @@ namespace Supple
                          std::to_string(id) + ".");
 
     const bool cured = parameters.cure == MaterialParameters::LockingCure::patches;
+    for (const auto &[id, n_cells] : mesh.materials)
+      if (cured && is_quadratic() && !(material(id).lambda > 0.))
+        throw InputError(scene.origin("Material/Volumetric locking cure") +
+                         ": patches of quadratic cells are for Poisson ratios above 0, and that of "
+                         "material " +
+                         std::to_string(id) + " is " + digits(material(id).poisson(), 6) +
+                         ". No cell locks there; it must be none.");
     std::vector<Cell> known_cells;
     for (const LocalCell &cell : mesh.parts->cells)
       {
@@ -88,10 +95,6 @@ namespace Supple
           cell_is_of.density = 0.;
         if (cured && is_quadratic())
           {
-            if (!(cell_is_of.lambda > 0.))
-              throw InputError(scene.origin("Material/Volumetric locking cure") +
-                               ": patches of quadratic cells are for Poisson ratios above 0, at "
-                               "which cells may lock; it must be none.");
             patch_cells.push_back({{}, cell.patch, cell_is_of.lambda});
             cell_is_of = cell_is_of.without_lambda();
           }

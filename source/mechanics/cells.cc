@@ -535,7 +535,6 @@ namespace Supple
         const std::size_t spare = chunk / 2; // that of its thread
         QuadraticPlaces &of     = quadratic_places[b];
         of.transposed.fill(0);
-        of.any_transposed = false;
         for (unsigned int lane = 0; lane < n_lanes; ++lane)
           {
             const bool empty = b * n_lanes + lane >= cells.n_cells;
@@ -549,10 +548,7 @@ namespace Supple
                     of.lower[p][lane] = empty ? pattern.n_entries() + spare
                                               : place_of_pair(pattern, node(a), node(c), spare);
                     if (!empty && node(a) < node(c))
-                      {
-                        of.transposed[p] |= 1u << lane;
-                        of.any_transposed = true;
-                      }
+                      of.transposed[p] |= 1u << lane;
                   }
               }
           }

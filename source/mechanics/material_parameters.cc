@@ -52,9 +52,9 @@ namespace Supple
                "Volumetric locking cure",
                cure,
                {{"none", LockingCure::none}, {"patches", LockingCure::patches}},
-               "Linear cells are too stiff where the material is almost incompressible. patches: "
-               "about eight tetrahedra, or four triangles, resist together to a change of their "
-               "volume, which cures it (doc/locking.md).");
+               "Cells are too stiff where the material is almost incompressible. patches: "
+               "about eight tetrahedra, twelve quadratic ones, or four triangles, resist together to "
+               "a change of their volume, which cures it (doc/locking.md).");
     add_choice(prm,
                "Volume change",
                volume_measure,

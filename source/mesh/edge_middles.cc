@@ -28,9 +28,21 @@ namespace Supple
   void
   find_parts_of_middles(SerialMesh &mesh)
   {
-    // A vertex that several parts share has the number of the first.
+    // A vertex that several parts share has the number of the first: the largest of a cell is its
+    // own.
     for (SerialMesh::Middle &middle : mesh.middles)
-      middle.part = std::max(mesh.parts[middle.ends[0]], mesh.parts[middle.ends[1]]);
+      middle.part = numbers::invalid_unsigned_int;
+    for (const auto &cell : mesh.cells)
+      {
+        unsigned int part = 0;
+        for (const unsigned int vertex : cell)
+          part = std::max(part, mesh.parts[vertex]);
+        for (const auto &[a, b] : tetrahedron_edges)
+          {
+            unsigned int &of_middle = mesh.middles[mesh.middle(cell[a], cell[b])].part;
+            of_middle               = std::min(of_middle, part);
+          }
+      }
   }
 
 
@@ -63,11 +75,11 @@ namespace Supple
   } // namespace
 
 
-  std::array<double, 8>
+  std::array<double, 14>
   volumes_at_places(const SerialMesh &mesh, const std::size_t cell)
   {
     constexpr double a = 0.58541019662496852, b = 0.13819660112501050;
-    std::array<double, 8> volumes;
+    std::array<double, 14> volumes;
     for (unsigned int k = 0; k < 4; ++k)
       {
         std::array<double, 4> point{{b, b, b, b}}, vertex{};
@@ -76,6 +88,13 @@ namespace Supple
         volumes[k]     = determinant_over_six(slopes(mesh, cell, point));
         volumes[4 + k] = determinant_over_six(slopes(mesh, cell, vertex));
       }
+    for (unsigned int e = 0; e < 6; ++e)
+      {
+        std::array<double, 4> middle{};
+        for (const unsigned int end : tetrahedron_edges[e])
+          middle[end] = 0.5;
+        volumes[8 + e] = determinant_over_six(slopes(mesh, cell, middle));
+      }
     return volumes;
   }
 
@@ -83,7 +102,7 @@ namespace Supple
   double
   quadratic_volume(const SerialMesh &mesh, const std::size_t cell)
   {
-    const std::array<double, 8> volumes = volumes_at_places(mesh, cell);
+    const std::array<double, 14> volumes = volumes_at_places(mesh, cell);
     return 0.25 * (volumes[0] + volumes[1] + volumes[2] + volumes[3]);
   }
 
@@ -95,7 +114,7 @@ namespace Supple
       return;
     for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
       {
-        const std::array<double, 8> volumes = volumes_at_places(mesh, cell);
+        const std::array<double, 14> volumes = volumes_at_places(mesh, cell);
         if (*std::min_element(volumes.begin(), volumes.end()) > 0.)
           continue;
         Point<3> center;

@@ -146,7 +146,7 @@ namespace Supple
 
     /** Where the generator puts the middle of an edge. */
     Bisection::Middle
-    middle_of(const MeshParameters::Shape shape)
+    middle_by_shape(const MeshParameters::Shape shape)
     {
       return shape == MeshParameters::Shape::hollow_cylinder ? middle_around_axis : middle_of_edge;
     }
@@ -170,12 +170,13 @@ namespace Supple
                          ": 2 is for tetrahedra; this body has triangles, whose order is 1.");
       if (parameters.refinement.wanted() && !mesh.middles.empty())
         throw InputError(
-          scene.origin("Mesh/Refine region") +
+          scene.origin(parameters.refinement.region.empty() ? "Mesh/File" : "Mesh/Refine region") +
           ": the file has nodes in the middles of edges, which may lie on curved "
           "walls; where an edge is cut, nothing says where the wall is. Refine it in "
-          "the program that made it, or leave its cells as they are.");
+          "the program that made it, or leave its cells as they are (Mesh/Refine, Space/Aim, "
+          "Space/Second mesh = finer).");
       if (mesh.middles.empty())
-        add_middles(mesh, middle_of(parameters.shape));
+        add_middles(mesh, middle_by_shape(parameters.shape));
     }
 
 
@@ -189,7 +190,7 @@ namespace Supple
     {
       const MeshReport before = check_mesh(mesh, source);
       BodyShape shape;
-      shape.middle = middle_of(parameters.shape);
+      shape.middle = middle_by_shape(parameters.shape);
       shape.places = [&](const SerialMesh &of) {
         SerialMesh copy = of;
         if (!parameters.map.empty())
@@ -212,16 +213,13 @@ namespace Supple
   box_around(const SerialMesh &mesh, const std::vector<Point<3>> &places)
   {
     Point<3> low = places[mesh.cells[0][0]], high = low;
-    const auto include = [&](const Point<3> &place) {
-      for (unsigned int d = 0; d < 3; ++d)
-        {
-          low[d]  = std::min(low[d], place[d]);
-          high[d] = std::max(high[d], place[d]);
-        }
-    };
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
       for (const unsigned int v : mesh.cell_vertices(c))
-        include(places[v]);
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            low[d]  = std::min(low[d], places[v][d]);
+            high[d] = std::max(high[d], places[v][d]);
+          }
     return BoundingBox<3>({low, high});
   }
 

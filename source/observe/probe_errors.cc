@@ -180,8 +180,11 @@ namespace Supple
       growth_of_dual = configuration.patches->growth_by_change(z.data());
     const unsigned int n_points = body.cells->n_points();
     for (std::size_t point = 0; point < growth_of_dual.size(); ++point)
-      mean_of_dual.push_back(body.material(body.cell_material[point / n_points]).bulk() *
-                             growth_of_dual[point].patch);
+      {
+        const IsotropicMaterial &material = body.material(body.cell_material[point / n_points]);
+        mean_of_dual.push_back((body.is_quadratic() ? material.lambda : material.bulk()) *
+                               growth_of_dual[point].patch);
+      }
     const MatrixField gradient = recover(dual_gradient(z.data(), growth_of_dual), mean_of_dual);
 
     weights.assign(body.cell_nodes.size(), 0.);

@@ -60,16 +60,28 @@ namespace Supple
   }
 
 
+  /** The index of a vertex is the same on a finer mesh, that of the middle of an edge is not. */
+  void
+  Probes::add_vertex(const std::string &name, const std::string &text, const std::string &origin)
+  {
+    const Selection selection(body);
+    const auto before   = chosen.find(name);
+    std::string of_mesh = text;
+    if (before != chosen.end())
+      of_mesh = vertex_word + std::to_string(selection.nearest_vertex(before->second).first);
+    const std::vector<bool> nodes = selection.selected_nodes(of_mesh, origin);
+    const unsigned int vertex     = Utilities::string_to_int(after_word(of_mesh, vertex_word));
+    if (body.is_middle(vertex))
+      chosen[name] = selection.place_of_vertex(vertex);
+    add(name, nodes, selection.vertex_in_words(vertex));
+  }
+
+
   void
   Probes::add_point(const std::string &name, const std::string &text, const std::string &origin)
   {
-    if (const std::string index = after_word(text, vertex_word); !index.empty())
-      {
-        add(name,
-            Selection(body).selected_nodes(text, origin),
-            Selection(body).vertex_in_words(Utilities::string_to_int(index)));
-        return;
-      }
+    if (!after_word(text, vertex_word).empty())
+      return add_vertex(name, text, origin);
     Point<3> point;
     try
       {
@@ -87,10 +99,10 @@ namespace Supple
 
     constexpr double margin = 0.01; // of the box's sides
     const Selection selection(body);
-    if (chosen.count(name) == 0)
-      chosen[name] = selection.nearest_vertex(point).first;
-    const unsigned int vertex = chosen.at(name);
-    const double distance     = selection.place_of_vertex(vertex).distance(point);
+    const unsigned int vertex =
+      selection.nearest_vertex(chosen.count(name) > 0 ? chosen.at(name) : point).first;
+    chosen[name]          = selection.place_of_vertex(vertex);
+    const double distance = chosen.at(name).distance(point);
     std::vector<bool> nodes(body.n_local);
     for (unsigned int node = 0; node < body.n_local; ++node)
       nodes[node] = body.serial_vertex[node] == vertex;

@@ -369,20 +369,23 @@ namespace Supple
     for (unsigned int v = 0; v < 4; ++v)
       at_corners[v].lanes = (x.of_points[4 * cell + v].lanes - b * sum.lanes) / c;
 
-    const auto &sites = sites_of_cells[cell];
+    const auto &sites            = sites_of_cells[cell];
+    const Cells::TenNodes &nodes = body.cells->nodes_of(cell / n_lanes);
+    const auto value             = [&](const std::size_t site, const Place &place) {
+      const Fit &fit      = x.of_sites[site];
+      const Place &vertex = body.positions[site / n_slots];
+      Octet value         = fit.value;
+      for (unsigned int i = 0; i < 3; ++i)
+        value.lanes += (place[i] - vertex[i]) * fit.slopes[i].lanes;
+      return value;
+    };
     NodalOctets d{};
     for (unsigned int a = 0; a < Quadratic::n_nodes; ++a)
       {
         const unsigned int v = Quadratic::corners[a][0], w = Quadratic::corners[a][1];
-        const Fit &one = x.of_sites[sites[v]], &other = x.of_sites[sites[w]];
-        d[a].lanes = 0.5 * (one.value.lanes - at_corners[v].lanes) +
-                     0.5 * (other.value.lanes - at_corners[w].lanes);
-        if (v == w)
-          continue;
-        const Place &from = body.positions[sites[v] / n_slots],
-                    &to   = body.positions[sites[w] / n_slots];
-        for (unsigned int i = 0; i < 3; ++i) // both polynomials in the middle of the edge
-          d[a].lanes += 0.25 * (to[i] - from[i]) * (one.slopes[i].lanes - other.slopes[i].lanes);
+        const Place &place   = body.positions[nodes[a][cell % n_lanes]];
+        d[a].lanes           = 0.5 * (value(sites[v], place).lanes - at_corners[v].lanes) +
+                     0.5 * (value(sites[w], place).lanes - at_corners[w].lanes);
       }
     return d;
   }

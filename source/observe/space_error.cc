@@ -167,9 +167,18 @@ namespace Supple
     double sum        = 0.;
     const unsigned int n_points = body.cells->n_points();
     for (std::size_t c = 0; c < body.cell_nodes.size(); ++c)
-      for (unsigned int q = 0; q < n_points && body.cell_owned[c]; ++q)
-        sum -= 2. * recovery.volume(c, q) * recovery.difference_at(field, c, q).lanes[6] *
-               (growth[n_points * c + q].cell - growth[n_points * c + q].patch);
+      {
+        const IsotropicMaterial &material = body.material(body.cell_material[c]);
+        const double kept = body.is_quadratic() ? material.without_lambda().bulk() : 0.;
+        const double part = 1. - kept / material.bulk(); // of the resistance is in the patches
+        for (unsigned int q = 0; q < n_points && body.cell_owned[c]; ++q)
+          {
+            const auto &[of_cell, of_patch] = growth[n_points * c + q];
+            const double missing            = of_patch - of_cell;
+            sum += part * recovery.volume(c, q) * missing *
+                   (2. * recovery.difference_at(field, c, q).lanes[6] - kept * missing);
+          }
+      }
     return sum;
   }
 

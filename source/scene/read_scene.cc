@@ -117,6 +117,17 @@ namespace Supple
     }
 
 
+    /** Whether a nodal force acts on more than a vertex that is chosen. */
+    bool
+    acts_on_each_vertex(const Parameters &parameters)
+    {
+      const LoadParameters &loads = parameters.loads;
+      return !Expression(loads.nodal_force, 3, parameters.origin("Loads/Nodal force")).is_zero() &&
+             after_word(loads.nodal_force_on, vertex_word).empty() &&
+             after_word(loads.nodal_force_on, point_word).empty();
+    }
+
+
     /** What each vertex has by itself is more on a finer mesh, so that errors of the mesh mean
      * nothing. */
     void
@@ -133,11 +144,7 @@ namespace Supple
         asks = "Mesh/Refine region";
       else
         return;
-      const LoadParameters &loads = parameters.loads;
-      const bool forces =
-        !Expression(loads.nodal_force, 3, parameters.origin("Loads/Nodal force")).is_zero() &&
-        after_word(loads.nodal_force_on, vertex_word).empty() &&
-        after_word(loads.nodal_force_on, point_word).empty();
+      const bool forces = acts_on_each_vertex(parameters);
       for (const auto &[by_vertex, entry, instead] :
            {std::make_tuple(forces, "Loads/Nodal force", "take Loads/Traction or Loads/Body force"),
             std::make_tuple(parameters.material.vertex_mass > 0.,
@@ -166,6 +173,15 @@ namespace Supple
                          ": it is for linear cells; quadratic ones" + order +
                          " have other masses at the middles of edges than at vertices. It must be "
                          "0.");
+      if (parameters.damping.viscous > 0.)
+        throw InputError(parameters.origin("Damping/Viscous") +
+                         ": it is for the vertices of linear cells; quadratic ones" + order +
+                         " have more nodes. Take Damping/Mass factor.");
+      if (acts_on_each_vertex(parameters))
+        throw InputError(parameters.origin("Loads/Nodal force") +
+                         ": a force on each of several vertices is for linear cells; quadratic "
+                         "ones" +
+                         order + " have more nodes. Take Loads/Traction or Loads/Body force.");
     }
 
 

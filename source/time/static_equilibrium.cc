@@ -11,6 +11,30 @@
 
 namespace Supple
 {
+  namespace
+  {
+    /** As long as it lives a configuration may foresee strains. */
+    struct StrainsForeseen
+    {
+      Configuration &configuration;
+
+      explicit StrainsForeseen(Configuration &configuration)
+        : configuration(configuration)
+      {
+      }
+
+      ~StrainsForeseen()
+      {
+        configuration.forget_strains();
+      }
+
+      StrainsForeseen(const StrainsForeseen &) = delete;
+      StrainsForeseen &
+      operator=(const StrainsForeseen &) = delete;
+    };
+  } // namespace
+
+
   StaticEquilibrium::StaticEquilibrium(const Model &model)
     : TimeIntegrator(model, 1.)
     , loads_follow(model.forces.loads_follow())
@@ -286,46 +310,59 @@ namespace Supple
   }
 
 
-  bool
-  StaticEquilibrium::reach_by_foreseen_strains(const double load_factor, StepReport &report)
+  void
+  StaticEquilibrium::correct_by_foreseen_strains(const double load_factor, StepReport &report)
   {
     constexpr unsigned int most_corrections = 8;
     constexpr double too_far                = 1e10; // times what was out of balance at first
 
+    Configuration &configuration = model.configuration;
+    const StrainsForeseen until_the_end(configuration);
+    const double at_first   = free_residual.l2_norm();
+    const unsigned int most = std::min(most_corrections, model.time.newton_limit);
+    for (unsigned int n = 0; n < most && !is_balanced(load_factor); ++n)
+      {
+        assemble(Tangent::consistent, load_factor);
+        report.linear_iterations += model.solver.solve(correction, free_residual);
+        ++report.newton_iterations;
+        ++model.effort.newton_iterations;
+        configuration.foresee_strains();
+        configuration.state.displacement.add(model.forces.largest_step(configuration, correction),
+                                             correction);
+        update_residual(load_factor);
+        if (!all_finite(residual) || free_residual.l2_norm() > too_far * at_first)
+          return;
+      }
+  }
+
+
+  bool
+  StaticEquilibrium::reach_by_foreseen_strains(const double load_factor, StepReport &report)
+  {
     const Tangent choice = model.time.tangent;
     if (!model.forces.have_energy() || choice == Tangent::frozen || choice == Tangent::definite)
       return false;
-    Configuration &configuration   = model.configuration;
-    Vector &displacement           = configuration.state.displacement;
-    const Vector start             = displacement;
-    const double energy_at_first   = model.forces.energy(configuration, 1., load_factor);
-    const double balance_at_first  = free_residual.l2_norm();
+    Vector &displacement                 = model.configuration.state.displacement;
+    const Vector start                   = displacement;
+    const double energy_at_first         = model.forces.energy(model.configuration, 1., load_factor);
     const unsigned int n_inverted_before = n_inverted();
-    const unsigned int most = std::min(most_corrections, model.time.newton_limit);
-    bool goes_on            = true;
     try
       {
-        for (unsigned int n = 0; goes_on && n < most && !is_balanced(load_factor); ++n)
+        correct_by_foreseen_strains(load_factor, report);
+        if (all_finite(residual) && is_balanced(load_factor) && n_inverted() <= n_inverted_before)
           {
-            assemble(Tangent::consistent, load_factor);
-            report.linear_iterations += model.solver.solve(correction, free_residual);
-            ++report.newton_iterations;
-            ++model.effort.newton_iterations;
-            configuration.foresee_strains();
-            displacement += correction;
-            update_residual(load_factor);
-            goes_on =
-              all_finite(residual) && free_residual.l2_norm() < too_far * balance_at_first;
+            const double work =
+              loads_follow ? load_factor * model.forces.work_along(model.configuration, 1., start) :
+                             0.;
+            if (model.forces.energy(model.configuration, 1., load_factor) - work <=
+                energy_at_first)
+              return true;
           }
       }
     catch (const ComputationError &)
       {
-        goes_on = false;
+        // then the safe way may do
       }
-    configuration.forget_strains();
-    if (goes_on && is_balanced(load_factor) && n_inverted() <= n_inverted_before &&
-        (loads_follow || model.forces.energy(configuration, 1., load_factor) <= energy_at_first))
-      return true;
     displacement = start;
     update_residual(load_factor);
     return false;

@@ -129,7 +129,6 @@ for entries in [{}, {"Time/Method": "implicit midpoint", "Time/Newton tolerance"
             runner.check(one.summary()[fact] == several.summary()[fact], f"{fact} on {ranks} processes")
 
 # A run goes on from a checkpoint as if nothing had been.
-folder = None
 through = runner.simulate(runner.BAR, {**parts, "Corotation/Warp tolerance": 0.5, "Checkpoint/Every": 3, "Time/Steps": 8})
 status, _, error = runner.run(runner.BAR, "--quiet", "--output", through.folder / "again", *runner.overrides(
     {**parts, "Corotation/Warp tolerance": 0.5, "Checkpoint/Every": 3, "Time/Steps": 4}))

@@ -55,6 +55,13 @@ namespace Supple
       return mesh.is_quadratic();
     }
 
+    /** Whether the node with this index in the unpartitioned mesh is the middle of an edge. */
+    bool
+    is_middle(const unsigned int index) const
+    {
+      return index + mesh.n_middles >= mesh.n_serial_vertices();
+    }
+
     /** All local nodes of a cell; two of a triangle's are the same. */
     std::vector<unsigned int>
     nodes_of_cell(std::size_t cell) const;

@@ -376,7 +376,6 @@ namespace Supple
       std::array<Slot, 45> lower;
       std::array<Slot, 10> diagonal;
       std::array<std::uint8_t, 45> transposed; ///< a bit for each lane
-      bool any_transposed;
     };
 
     CellSlots(const Cells &cells, const SymmetricPattern &pattern);

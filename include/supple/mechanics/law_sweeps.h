@@ -78,14 +78,20 @@ namespace Supple
    * compiled into them. @p Formulas is a struct with the members of Corotational:
    *
    *   name(), is_linear(), has_energy(), has_rotations()
-   *   rotation(F), rotation_in_plane(F)           R of each cell, I for a law without
-   *   stress(batch, R, F)                         first Piola-Kirchhoff stress over R: R^T P [Pa]
-   *   energy_density(batch, R, F)                 [J/m^3]
-   *   stress_change(batch, R, dF), Blocks         the part of the tangent with R held; Blocks has
-   * h, shear(), entry() and hoop_stiffness rotated_gradients(batch, R)                 h_a = R g_a
+   *
+   *   rotation(F), rotation_in_plane(F): R of each cell, I for a law without
+   *
+   *   stress(batch, R, F): first Piola-Kirchhoff stress over R: R^T P [Pa]
+   *
+   *   energy_density(batch, R, F) [J/m^3]
+   *
+   *   stress_change(batch, R, dF), Blocks: the part of the tangent with R held; Blocks has h,
+   *   shear(), entry() and hoop_stiffness
+   *
+   *   rotated_gradients(batch, R): h_a = R g_a
+   *
    *   Turning, turning(batch, R, R of the strain, F, mean_stress, definite), turning_product(),
-   * turning_block()
-   *                                               the rest of it, which can be projected
+   *   turning_block(): the rest of it, which can be projected
    *
    * Stiffness damping counts on a stress that is linear in F with R held, up to a constant.
    */

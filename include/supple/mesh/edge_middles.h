@@ -18,10 +18,11 @@ namespace Supple
 
   /**
    * The determinant of the place in a quadratic cell by its barycentric coordinates, over six, at
-   * the four points of integration and then at the four vertices [m^3]: that at all places is the
-   * volume of a cell with straight edges and nodes in their middles.
+   * the four points of integration, then at the four vertices and the middles of the six edges
+   * [m^3]: that at all places is the volume of a cell with straight edges and nodes in their
+   * middles.
    */
-  std::array<double, 8>
+  std::array<double, 14>
   volumes_at_places(const SerialMesh &mesh, std::size_t cell);
 
 

@@ -19,8 +19,9 @@ namespace Supple
     dealii::Point<3> profile_center{0., 0., 0.};
     unsigned int profile_every = 1;
 
-    /** The vertices of points by their names, as a pilot run has chosen them; not of the file. */
-    std::map<std::string, unsigned int> chosen;
+    /** Where at rest the nodes are that a pilot run has chosen, by the names of the probes; not of
+     * the file [m]. */
+    std::map<std::string, dealii::Point<3>> chosen;
 
     void
     declare(dealii::ParameterHandler &prm);

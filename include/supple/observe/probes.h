@@ -52,9 +52,9 @@ namespace Supple
     std::vector<std::string>
     descriptions() const;
 
-    /** The vertices that points choose, by the names of the probes. */
-    const std::map<std::string, unsigned int> &
-    vertices_of_points() const
+    /** Where at rest the nodes are that points choose, by the names of the probes [m]. */
+    const std::map<std::string, dealii::Point<3>> &
+    places_of_points() const
     {
       return chosen;
     }
@@ -83,6 +83,9 @@ namespace Supple
     add_point(const std::string &name, const std::string &text, const std::string &origin);
 
     void
+    add_vertex(const std::string &name, const std::string &text, const std::string &origin);
+
+    void
     add_nodes(const std::string &name, const std::string &what, const std::vector<bool> &nodes);
 
     void
@@ -90,7 +93,7 @@ namespace Supple
 
     const Body &body;
     std::vector<Probe> probes;
-    std::map<std::string, unsigned int> chosen; ///< vertices of points; some before, all at last
+    std::map<std::string, dealii::Point<3>> chosen; ///< some before, all at last
     std::vector<std::string> points_outside;
   };
 } // namespace Supple

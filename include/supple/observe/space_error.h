@@ -71,8 +71,13 @@ namespace Supple
    *   eta_e^2 = integral over the cell of (T* - T) : C^-1 : (T* - T),   eta^2 = sum eta_e^2,
    *
    * where C is the elasticity of the material. Patches of cells that keep their volume together are
-   * no longer too stiff alone; the error of the work has - 2 sum V (p*_e - s_P)(theta_e - Theta_P)
-   * beside eta^2, with the mean p*_e of the recovered mean stress (VolumetricPatches has the rest).
+   * no longer too stiff alone; the error of the work has
+   *
+   *   (1 - k/kappa) sum V (Theta_P - theta_e) (2 (p*_e - p_e) - k (Theta_P - theta_e))
+   *
+   * beside eta^2, with the mean stress p, the mean p*_e of the recovered one in a cell or its value
+   * at a point, and the bulk modulus k that cells keep: 0, or 2/3 mu of quadratic ones
+   * (VolumetricPatches has the rest).
    */
   class SpaceError
   {

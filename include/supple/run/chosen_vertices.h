@@ -15,8 +15,9 @@ namespace Supple
                     const std::function<void(std::string &, const std::string &)> &change);
 
 
-  /** A scene with the vertices that its points choose on a mesh: on a finer one, whose old vertices
-   * keep their indices, others may be nearer. Collective. @throws InputError */
+  /** A scene with the nodes that its points choose on a mesh: on a finer one others may be nearer.
+   * Old vertices keep their indices there; middles of edges, which may have become vertices, are
+   * found by their places. Collective. @throws InputError */
   Parameters
   with_chosen_vertices(const Parameters &scene, const Body &body);
 } // namespace Supple

@@ -84,7 +84,13 @@ namespace Supple
     bool
     is_balanced(double load_factor) const;
 
-    /** Newton's method with foreseen strains; false, and nothing changed, if that fails. */
+    /** Newton's corrections with foreseen strains, until there is balance or that is not to be
+     * expected. @throws ComputationError */
+    void
+    correct_by_foreseen_strains(double load_factor, StepReport &report);
+
+    /** The same; false, and nothing changed, if that leads to no equilibrium that is better than
+     * the start. */
     bool
     reach_by_foreseen_strains(double load_factor, StepReport &report);
 
