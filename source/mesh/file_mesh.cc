@@ -45,8 +45,7 @@ namespace Supple
         const auto found = std::lower_bound(numbers.begin(), numbers.end(), number);
         if (found == numbers.end() || *found != number)
           throw InputError("an element has the node " + std::to_string(number) +
-                           ", which is not in the file, or is the middle of an edge of another "
-                           "element.");
+                           ", which is not in the file, or is the middle of an edge too.");
         return found - numbers.begin();
       }
 
@@ -198,6 +197,9 @@ namespace Supple
           if (place == file.vertices.end())
             throw InputError("an element has the node " + std::to_string(number) +
                              ", which is not in the file.");
+          if (!std::isfinite(place->second.norm()))
+            throw InputError("a coordinate of the node " + std::to_string(number) +
+                             " is not a finite number, or too large.");
           std::array<unsigned int, 2> of_mesh = {{position(ends[0]), position(ends[1])}};
           std::sort(of_mesh.begin(), of_mesh.end());
           mesh.middles.push_back({of_mesh, place->second});

@@ -314,14 +314,13 @@ namespace Supple
   StaticEquilibrium::correct_by_foreseen_strains(const double load_factor, StepReport &report)
   {
     constexpr unsigned int most_corrections = 8;
-    constexpr double too_far                = 1e10; // times what was out of balance at first
 
     Configuration &configuration = model.configuration;
     const StrainsForeseen until_the_end(configuration);
-    const double at_first   = free_residual.l2_norm();
     const unsigned int most = std::min(most_corrections, model.time.newton_limit);
     for (unsigned int n = 0; n < most && !is_balanced(load_factor); ++n)
       {
+        const double before = free_residual.l2_norm();
         assemble(Tangent::consistent, load_factor);
         report.linear_iterations += model.solver.solve(correction, free_residual);
         ++report.newton_iterations;
@@ -330,7 +329,8 @@ namespace Supple
         configuration.state.displacement.add(model.forces.largest_step(configuration, correction),
                                              correction);
         update_residual(load_factor);
-        if (!all_finite(residual) || free_residual.l2_norm() > too_far * at_first)
+        // The first correction stretches what turns; from then on the forces must come to balance.
+        if (!all_finite(residual) || (n > 0 && free_residual.l2_norm() > before))
           return;
       }
   }
