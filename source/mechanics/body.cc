@@ -1,6 +1,7 @@
 #include <supple/mechanics/body.h>
 
 #include <supple/base/error.h>
+#include <supple/base/text.h>
 
 #include <algorithm>
 
@@ -71,13 +72,8 @@ namespace Supple
                          std::to_string(id) + ".");
 
     const bool cured = parameters.cure == MaterialParameters::LockingCure::patches;
-    for (const auto &[id, n_cells] : mesh.materials)
-      if (cured && is_quadratic() && !(material(id).lambda > 0.))
-        throw InputError(scene.origin("Material/Volumetric locking cure") +
-                         ": patches of quadratic cells are for Poisson ratios above 0, and that of "
-                         "material " +
-                         std::to_string(id) + " is " + digits(material(id).poisson(), 6) +
-                         ". No cell locks there; it must be none.");
+    if (cured && is_quadratic())
+      check_patches(scene);
     std::vector<Cell> known_cells;
     for (const LocalCell &cell : mesh.parts->cells)
       {
@@ -124,6 +120,19 @@ namespace Supple
                                           mesh.section,
                                           n_threads,
                                           is_quadratic());
+  }
+
+
+  void
+  Body::check_patches(const ParameterFile &scene) const
+  {
+    for (const auto &[id, n_cells] : mesh.materials)
+      if (!(material(id).lambda > 0.))
+        throw InputError(scene.origin("Material/Volumetric locking cure") +
+                         ": patches of quadratic cells are for Poisson ratios above 0, and that of "
+                         "material " +
+                         std::to_string(id) + " is " + digits(material(id).poisson(), 6) +
+                         ". No cell locks there; it must be none.");
   }
 
 

@@ -207,8 +207,8 @@ namespace Supple
     std::array<double, 3> place{};
     for (unsigned int a = 0; a < Quadratic::n_nodes; ++a)
       for (unsigned int i = 0; i < 3; ++i)
-        place[i] += Quadratic::value(a, q) *
-                    positions[ten_nodes[cell / n_lanes][a][cell % n_lanes]][i];
+        place[i] +=
+          Quadratic::value(a, q) * positions[ten_nodes[cell / n_lanes][a][cell % n_lanes]][i];
     return place;
   }
 

@@ -48,13 +48,14 @@ namespace Supple
         "kg",
         Range::at_least(0),
         "If positive, every vertex has this mass, and densities count for nothing.");
-    add_choice(prm,
-               "Volumetric locking cure",
-               cure,
-               {{"none", LockingCure::none}, {"patches", LockingCure::patches}},
-               "Cells are too stiff where the material is almost incompressible. patches: "
-               "about eight tetrahedra, twelve quadratic ones, or four triangles, resist together to "
-               "a change of their volume, which cures it (doc/locking.md).");
+    add_choice(
+      prm,
+      "Volumetric locking cure",
+      cure,
+      {{"none", LockingCure::none}, {"patches", LockingCure::patches}},
+      "Cells are too stiff where the material is almost incompressible. patches: "
+      "about eight tetrahedra, twelve quadratic ones, or four triangles, resist together to "
+      "a change of their volume, which cures it (doc/locking.md).");
     add_choice(prm,
                "Volume change",
                volume_measure,

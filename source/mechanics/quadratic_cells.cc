@@ -57,7 +57,9 @@ namespace Supple
 
 
   std::vector<Matrix3<Pack>>
-  deformation_gradients_at_points(const Cells &cells, const std::size_t batch, const double *displacement)
+  deformation_gradients_at_points(const Cells &cells,
+                                  const std::size_t batch,
+                                  const double *displacement)
   {
     if (!cells.is_quadratic())
       return {cells.deformation_gradient(batch, displacement)};

@@ -124,7 +124,8 @@ namespace Supple
     VsF.resize(n_points * cells.n_batches());
     for (std::size_t b = 0; b < cells.n_batches(); ++b)
       {
-        const std::vector<Matrix3<Pack>> F = deformation_gradients_at_points(cells, b, displacement);
+        const std::vector<Matrix3<Pack>> F =
+          deformation_gradients_at_points(cells, b, displacement);
         for (unsigned int q = 0; q < n_points; ++q)
           {
             const Pack volume =

@@ -28,6 +28,8 @@ namespace Supple
   void
   find_parts_of_middles(SerialMesh &mesh)
   {
+    if (mesh.middles.empty())
+      return;
     // A vertex that several parts share has the number of the first: the largest of a cell is its
     // own.
     for (SerialMesh::Middle &middle : mesh.middles)

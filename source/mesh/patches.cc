@@ -36,7 +36,9 @@ namespace Supple
     public:
       explicit Grouping(const SerialMesh &mesh)
         : mesh(mesh)
-        , full_size(mesh.dimension == 2 ? 4 : mesh.middles.empty() ? 8 : 12)
+        , full_size(mesh.dimension == 2    ? 4
+                    : mesh.middles.empty() ? 8
+                                           : 12)
         , smallest_size(full_size / 2)
         , neighbours(find_neighbours(mesh))
         , patch(mesh.cells.size(), none)

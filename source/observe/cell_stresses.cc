@@ -53,9 +53,9 @@ namespace Supple
       for (unsigned int q = 0; q < n_points; ++q)
         {
           const std::size_t place = n_points * b + q;
-          Matrix3<Pack> T = rotations.empty() ?
-                              piola[place] :
-                              product_with_transposed(piola[place], rotations[place]);
+          Matrix3<Pack> T         = rotations.empty()
+                                      ? piola[place]
+                                      : product_with_transposed(piola[place], rotations[place]);
           if (patches)
             {
               Pack s(0.);

@@ -202,7 +202,8 @@ namespace Supple
           continue;
         for (unsigned int q = 0; q < n_points; ++q)
           {
-            const auto &of_dual   = growth_of_dual[n_points * c + q], &of_body = growth[n_points * c + q];
+            const auto &of_dual   = growth_of_dual[n_points * c + q],
+                       &of_body   = growth[n_points * c + q];
             const double own      = recovery.difference_at(space_error.recovered(), c, q).lanes[6];
             const double dual_own = recovery.difference_at(gradient[1], c, q).lanes[1];
             sum -= recovery.volume(c, q) * (own * (of_dual.cell - of_dual.patch) +

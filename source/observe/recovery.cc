@@ -383,8 +383,8 @@ namespace Supple
     for (unsigned int a = 0; a < Quadratic::n_nodes; ++a)
       {
         const unsigned int v = Quadratic::corners[a][0], w = Quadratic::corners[a][1];
-        const Place &place   = body.positions[nodes[a][cell % n_lanes]];
-        d[a].lanes           = 0.5 * (value(sites[v], place).lanes - at_corners[v].lanes) +
+        const Place &place = body.positions[nodes[a][cell % n_lanes]];
+        d[a].lanes         = 0.5 * (value(sites[v], place).lanes - at_corners[v].lanes) +
                      0.5 * (value(sites[w], place).lanes - at_corners[w].lanes);
       }
     return d;

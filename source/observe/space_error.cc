@@ -163,8 +163,8 @@ namespace Supple
       return 0.;
     const Body &body = configuration.body;
     const GhostValues u(configuration.displacement());
-    const auto growth = configuration.patches->growth(u.data());
-    double sum        = 0.;
+    const auto growth           = configuration.patches->growth(u.data());
+    double sum                  = 0.;
     const unsigned int n_points = body.cells->n_points();
     for (std::size_t c = 0; c < body.cell_nodes.size(); ++c)
       {

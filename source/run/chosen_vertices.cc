@@ -44,11 +44,10 @@ namespace Supple
         if (nodes[node])
           vertex = body.serial_vertex[node];
       vertex = Utilities::MPI::min(vertex, body.mesh.communicator);
-      text   = body.is_middle(vertex) ? point_word + in_words(selection.place_of_vertex(vertex)) :
-                                        vertex_word + std::to_string(vertex);
+      text   = body.is_middle(vertex) ? point_word + in_words(selection.place_of_vertex(vertex))
+                                      : vertex_word + std::to_string(vertex);
     });
-    result.probes.chosen =
-      Probes(body, scene.probes, scene.motions, scene.file).places_of_points();
+    result.probes.chosen = Probes(body, scene.probes, scene.motions, scene.file).places_of_points();
     return result;
   }
 } // namespace Supple

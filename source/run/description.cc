@@ -218,9 +218,8 @@ namespace Supple
         else
           text << "Linear " << problem.mesh.cell_name()
                << " are too stiff (they lock) at a Poisson ratio above 0.45; it is ";
-        text
-          << (poisson < 0.4999 ? digits(poisson, 6) : "0.5 - " + digits(0.5 - poisson, 2))
-          << ". Material/Volumetric locking cure = patches helps.";
+        text << (poisson < 0.4999 ? digits(poisson, 6) : "0.5 - " + digits(0.5 - poisson, 2))
+             << ". Material/Volumetric locking cure = patches helps.";
         list.push_back(text.str());
       }
     if (!problem.stationary && problem.parameters.time.method == TimeMethod::ida &&

@@ -76,8 +76,9 @@ namespace Supple
     if (kind == Kind::linear)
       {
         if (scene.mesh.order == 1)
-          throw InputError(origin + ": linear is for quadratic cells (Mesh/Order = 2); take "
-                                    "coarser or finer.");
+          throw InputError(origin +
+                           ": linear is for quadratic cells (Mesh/Order = 2); take "
+                           "coarser or finer.");
         other.mesh.order = 1;
         return other;
       }

@@ -107,7 +107,8 @@ namespace Supple
     }
 
 
-    /** Our multigrid for deal.II's conjugate gradients. */
+    /** Our multigrid for deal.II's solvers, as an approximation of A^-1: for minimal residuals its
+     * unit matters, for the mean stresses have a preconditioner of their own. */
     class DoublePrecision
     {
     public:
@@ -128,9 +129,10 @@ namespace Supple
           for (unsigned int i = 0; i < 3; ++i)
             r[node].lanes[i] = scale * x.local_element(3 * node + i);
         multigrid.apply(z.data(), Az.data(), r.data());
+        const double unit = size * multigrid.scale();
         for (std::size_t node = 0; node < multigrid.halo.n_owned; ++node)
           for (unsigned int i = 0; i < 3; ++i)
-            y.local_element(3 * node + i) = size * z[node].lanes[i];
+            y.local_element(3 * node + i) = unit * z[node].lanes[i];
       }
 
     private:

@@ -117,8 +117,15 @@ namespace Supple
         dealii::IterationNumberControl control(parameters.iteration_limit - n_iterations,
                                                std::max(0.3 * goal * unit, 1e-13 * size));
         correction = 0.;
-        dealii::SolverMinRes<BlockVector>(control, memory)
-          .solve(*this, correction, remainder, preconditioning);
+        try
+          {
+            dealii::SolverMinRes<BlockVector>(control, memory)
+              .solve(*this, correction, remainder, preconditioning);
+          }
+        catch (const dealii::SolverControl::NoConvergence &) // not a number
+          {
+            throw ComputationError("minimal residuals (" + name + ") gave no finite numbers");
+          }
         n_iterations += std::max(1u, control.last_step());
         solution += correction;
 

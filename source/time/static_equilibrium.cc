@@ -342,9 +342,9 @@ namespace Supple
     const Tangent choice = model.time.tangent;
     if (!model.forces.have_energy() || choice == Tangent::frozen || choice == Tangent::definite)
       return false;
-    Vector &displacement                 = model.configuration.state.displacement;
-    const Vector start                   = displacement;
-    const double energy_at_first         = model.forces.energy(model.configuration, 1., load_factor);
+    Vector &displacement         = model.configuration.state.displacement;
+    const Vector start           = displacement;
+    const double energy_at_first = model.forces.energy(model.configuration, 1., load_factor);
     const unsigned int n_inverted_before = n_inverted();
     try
       {
@@ -352,10 +352,9 @@ namespace Supple
         if (all_finite(residual) && is_balanced(load_factor) && n_inverted() <= n_inverted_before)
           {
             const double work =
-              loads_follow ? load_factor * model.forces.work_along(model.configuration, 1., start) :
-                             0.;
-            if (model.forces.energy(model.configuration, 1., load_factor) - work <=
-                energy_at_first)
+              loads_follow ? load_factor * model.forces.work_along(model.configuration, 1., start)
+                           : 0.;
+            if (model.forces.energy(model.configuration, 1., load_factor) - work <= energy_at_first)
               return true;
           }
       }

@@ -67,9 +67,8 @@ namespace
       std::vector<PatchCell> patch_cells;
       for (std::size_t c = 0; c < mesh.cells.size(); ++c)
         {
-          list.push_back({mesh.cells[c],
-                          quadratic ? material.without_lambda() : material.deviatoric(),
-                          true});
+          list.push_back(
+            {mesh.cells[c], quadratic ? material.without_lambda() : material.deviatoric(), true});
           plain_list.push_back({mesh.cells[c], material, true});
           if (quadratic)
             {
@@ -82,8 +81,7 @@ namespace
         }
       const Section section{geometry, 0.4};
       const unsigned int n = positions.size();
-      cells =
-        std::make_unique<ElasticCells>(positions, n, list, true, 0., section, 1u, quadratic);
+      cells = std::make_unique<ElasticCells>(positions, n, list, true, 0., section, 1u, quadratic);
       plain =
         std::make_unique<ElasticCells>(positions, n, plain_list, true, 0., section, 1u, quadratic);
       patches =
@@ -209,8 +207,8 @@ namespace
       std::array<unsigned int, 6> middles;
       const auto &nodes = mesh.cells[cell];
       for (unsigned int e = 0; e < 6; ++e)
-        middles[e] = mesh.vertices.size() + mesh.middle(nodes[tetrahedron_edges[e][0]],
-                                                        nodes[tetrahedron_edges[e][1]]);
+        middles[e] = mesh.vertices.size() +
+                     mesh.middle(nodes[tetrahedron_edges[e][0]], nodes[tetrahedron_edges[e][1]]);
       return middles;
     }
   };

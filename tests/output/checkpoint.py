@@ -97,7 +97,7 @@ for name, case, how in [(name, case, how) for name, case in cases.items()
                                env=runner.ENVIRONMENT, stderr=subprocess.DEVNULL)
     history = folder / name / "history.csv"
     while process.poll() is None and not (history.exists() and history.read_text().count("\n") > 12):
-        pass
+        time.sleep(0.002)
     process.send_signal(how)
     process.wait()
     for ranks in [2 if name == "polar" else 1, 1]:
@@ -116,7 +116,7 @@ def rows():
     return history.read_text().count("\n") if history.exists() else 0
 
 
-for kills in range(1, 21):
+for kills in range(1, 11):
     process = subprocess.Popen([runner.SUPPLE, str(runner.BAR), "--quiet", "--output", str(folder / "killed"),
                                 *runner.overrides(settings)], env=runner.ENVIRONMENT, start_new_session=True)
     smallest = None    # a run that goes on first cuts what was written after its checkpoint
@@ -126,6 +126,7 @@ for kills in range(1, 21):
         smallest = now if smallest is None or now < smallest else smallest
         if now > smallest + 15:
             break
+        time.sleep(0.001)
     grown = process.poll() is None and rows() > smallest
     time.sleep(random.uniform(0, 0.05))
     alive = process.poll() is None
@@ -153,7 +154,7 @@ for kills in range(1, 6):
     process = subprocess.Popen([runner.SUPPLE, str(runner.BAR), "--quiet", "--output", str(folder / "drawn"),
                                 *runner.overrides(settings)], env=runner.ENVIRONMENT)
     while process.poll() is None and n_frames() < before + 35:
-        pass
+        time.sleep(0.002)
     process.kill()
     process.wait()
     for file in solution.glob("*.vtu"):

@@ -112,6 +112,10 @@ namespace Supple
 
     void
     collect_cells(const MaterialParameters &parameters, const ParameterFile &scene);
+
+    /** @throws InputError for a material of quadratic cells that can have no patches */
+    void
+    check_patches(const ParameterFile &scene) const;
   };
 } // namespace Supple
 

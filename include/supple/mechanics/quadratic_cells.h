@@ -255,7 +255,9 @@ namespace Supple
 
   /** The same of the deformed place, F. */
   std::vector<Matrix3<Pack>>
-  deformation_gradients_at_points(const Cells &cells, std::size_t batch, const double *displacement);
+  deformation_gradients_at_points(const Cells &cells,
+                                  std::size_t batch,
+                                  const double *displacement);
 } // namespace Supple
 
 #endif

@@ -52,9 +52,11 @@ namespace Supple
           {
             const Batch point     = cells.point(b, q);
             const Matrix3<Pack> R = this->rotation_of(rotations.current, n_points * b + q);
-            f[q]                  = Quadratic::divergence(point,
-                              R * formulas.stress(point, R, deformation_gradient(point, W[q])),
-                              point.volume);
+            f[q] =
+              Quadratic::divergence(point,
+                                    R *
+                                      formulas.stress(point, R, deformation_gradient(point, W[q])),
+                                    point.volume);
           }
         Quadratic::scatter<-1>(cells.nodes_of(b), Quadratic::to_nodes(f), force);
       });
@@ -110,9 +112,10 @@ namespace Supple
           {
             const Batch point     = cells.point(b, q);
             const Matrix3<Pack> R = this->rotation_of(rotations.current, n_points * b + q);
-            f[q]                  = Quadratic::divergence(point,
-                              R * formulas.stress_change(point, R, Quadratic::gradient(point, W[q])),
-                              factor * point.volume);
+            f[q]                  = Quadratic::divergence(
+              point,
+              R * formulas.stress_change(point, R, Quadratic::gradient(point, W[q])),
+              factor * point.volume);
           }
         Quadratic::scatter(cells.nodes_of(b), Quadratic::to_nodes(f), y);
       });
@@ -224,7 +227,7 @@ namespace Supple
       for (unsigned int j = 0; j < 3; ++j)
         {
           NodalPack unit{};
-          unit[l][j] = Pack(1.);
+          unit[l][j]            = Pack(1.);
           const Matrix3<Pack> P = volume_stiffness.stress(place, Quadratic::gradient(point, unit));
           columns[j]            = Quadratic::divergence(point, P, Pack(1.))[k];
         }

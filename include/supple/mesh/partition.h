@@ -17,8 +17,8 @@ namespace Supple
     std::vector<unsigned int> serial_cell;   ///< indices of its cells in the whole mesh
     std::vector<unsigned int> serial_middle; ///< numbers of its middle nodes in the whole mesh,
                                              ///< which come after those of all vertices
-    std::vector<unsigned int> owner; ///< the process of each of its cells
-    unsigned int n_patches = 0;      ///< on all processes
+    std::vector<unsigned int> owner;         ///< the process of each of its cells
+    unsigned int n_patches = 0;              ///< on all processes
 
     template <typename Archive>
     void

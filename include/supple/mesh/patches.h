@@ -7,10 +7,10 @@ namespace Supple
 {
   /**
    * Groups the cells of a mesh into compact patches of about eight linear tetrahedra, twelve
-   * quadratic ones, or four triangles, of the same material: each grows through shared faces, and takes next the cell that brings the
-   * fewest new vertices, and of those the one that shares the most faces with it. What is left over
-   * in patches of less than half that size goes to neighbours one cell at a time, where there are
-   * any.
+   * quadratic ones, or four triangles, of the same material: each grows through shared faces, and
+   * takes next the cell that brings the fewest new vertices, and of those the one that shares the
+   * most faces with it. What is left over in patches of less than half that size goes to neighbours
+   * one cell at a time, where there are any.
    *
    * It looks at the mesh alone, so that the patches do not depend on the number of processes.
    *

@@ -19,8 +19,9 @@ namespace Supple
     std::vector<Matrix3<Pack>> piola;
 
     /**
-     * T = P R^T of each point of each cell [Pa]: the stress of the turned cell, symmetric. Lanes 0 to 5 have its
-     * deviator, s11, s22, s33 and sqrt(2) times s12, s23, s31, and lane 6 its mean, so that
+     * T = P R^T of each point of each cell [Pa]: the stress of the turned cell, symmetric. Lanes 0
+     * to 5 have its deviator, s11, s22, s33 and sqrt(2) times s12, s23, s31, and lane 6 its mean,
+     * so that
      *
      *   T : C^-1 : T = (sum of the squares of lanes 0 to 5) / (2 mu) + lane 6^2 / kappa.
      */

@@ -154,9 +154,9 @@ namespace Supple
 
     const Body &body;
     const Halo halo;
-    const unsigned int n_nodes;  ///< of a cell, without the middles of edges
-    const unsigned int n_points; ///< of a cell
-    std::vector<Point> points;   ///< cell by cell
+    const unsigned int n_nodes;          ///< of a cell, without the middles of edges
+    const unsigned int n_points;         ///< of a cell
+    std::vector<Point> points;           ///< cell by cell
     unsigned int n_slots = 1;            ///< sites of a node
     std::vector<unsigned int> materials; ///< of each site; ascending at a node, padded
     std::vector<std::array<std::uint32_t, 4>> sites_of_cells;
