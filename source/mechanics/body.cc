@@ -38,6 +38,8 @@ namespace Supple
     , volume_measure(material.volume_measure)
   {
     collect_cells(material, scene);
+    if (has_patches() && is_quadratic())
+      check_patches(scene);
   }
 
 
@@ -72,8 +74,6 @@ namespace Supple
                          std::to_string(id) + ".");
 
     const bool cured = parameters.cure == MaterialParameters::LockingCure::patches;
-    if (cured && is_quadratic())
-      check_patches(scene);
     std::vector<Cell> known_cells;
     for (const LocalCell &cell : mesh.parts->cells)
       {
