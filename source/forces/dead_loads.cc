@@ -85,56 +85,50 @@ namespace Supple
   }
 
 
-  void
-  DeadLoads::add_quadratic_traction(const double time, Vector &to) const
+  template <unsigned int n>
+  DeadLoads::TractionFace<n>
+  DeadLoads::traction_on(const std::array<unsigned int, n> &nodes, const double time) const
   {
-    for (const auto &face : quadratic_traction_faces)
+    TractionFace<n> face;
+    for (unsigned int v = 0; v < n; ++v)
       {
-        std::array<Point<3>, 6> x;
-        std::array<Tensor<1, 3>, 6> values;
-        for (unsigned int v = 0; v < 6; ++v)
-          {
-            x[v] = body.position(face[v]);
-            for (unsigned int i = 0; i < 3; ++i)
-              values[v][i] = traction.value(x[v], time, i);
-          }
-        const CurvedFace over_face(x);
-        for (unsigned int q = 0; q < CurvedFace::n_points; ++q)
-          {
-            const std::array<double, 6> &N = CurvedFace::shape_values()[q];
-            Tensor<1, 3> force;
-            for (unsigned int v = 0; v < 6; ++v)
-              force += over_face.normals[q].norm() * N[v] * values[v];
-            for (unsigned int v = 0; v < 6; ++v)
-              if (face[v] < body.n_owned)
-                for (unsigned int i = 0; i < 3; ++i)
-                  to.local_element(3 * face[v] + i) += N[v] * force[i];
-          }
+        face.x[v] = body.position(nodes[v]);
+        for (unsigned int i = 0; i < 3; ++i)
+          face.values[v][i] = traction.value(face.x[v], time, i);
       }
+    return face;
   }
 
 
   void
   DeadLoads::add_traction(const double time, Vector &to) const
   {
-    add_quadratic_traction(time, to);
-    for (const auto &face : traction_faces)
+    const auto add = [&](const unsigned int node, const double factor, const Tensor<1, 3> &force) {
+      for (unsigned int i = 0; i < 3 && node < body.n_owned; ++i)
+        to.local_element(3 * node + i) += factor * force[i];
+    };
+    for (const auto &nodes : traction_faces)
       {
-        std::array<Point<3>, 3> x;
-        std::array<Tensor<1, 3>, 3> values;
-        for (unsigned int v = 0; v < 3; ++v)
-          {
-            x[v] = body.position(face[v]);
-            for (unsigned int i = 0; i < 3; ++i)
-              values[v][i] = traction.value(x[v], time, i);
-          }
-        const FaceIntegrals over_face(x, body.mesh.section);
+        const auto face = traction_on<3>(nodes, time);
+        const FaceIntegrals over_face(face.x, body.mesh.section);
         const double size = over_face.normal.norm();
         for (unsigned int v = 0; v < 3; ++v)
-          if (face[v] < body.n_owned)
-            for (unsigned int w = 0; w < 3; ++w)
-              for (unsigned int i = 0; i < 3; ++i)
-                to.local_element(3 * face[v] + i) += size * over_face.products[v][w] * values[w][i];
+          for (unsigned int w = 0; w < 3; ++w)
+            add(nodes[v], size * over_face.products[v][w], face.values[w]);
+      }
+    for (const auto &nodes : quadratic_traction_faces)
+      {
+        const auto face = traction_on<6>(nodes, time);
+        const CurvedFace over_face(face.x);
+        for (unsigned int q = 0; q < CurvedFace::n_points; ++q)
+          {
+            const std::array<double, 6> &N = CurvedFace::shape_values()[q];
+            Tensor<1, 3> force;
+            for (unsigned int v = 0; v < 6; ++v)
+              force += over_face.normals[q].norm() * N[v] * face.values[v];
+            for (unsigned int v = 0; v < 6; ++v)
+              add(nodes[v], N[v], force);
+          }
       }
   }
 

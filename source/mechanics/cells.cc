@@ -2,6 +2,7 @@
 
 #include <supple/base/memory.h>
 #include <supple/mechanics/quadratic_cells.h>
+#include <supple/mesh/serial_mesh.h>
 
 #include <algorithm>
 #include <cmath>
@@ -190,8 +191,12 @@ namespace Supple
                      const Cell &cell,
                      const std::array<unsigned int, 4> &order)
   {
-    constexpr std::array<std::array<unsigned int, 4>, 4> edge = {
-      {{{0, 0, 1, 2}}, {{0, 0, 3, 4}}, {{1, 3, 0, 5}}, {{2, 4, 5, 0}}}};
+    std::array<std::array<unsigned int, 4>, 4> edge{};
+    for (unsigned int e = 0; e < tetrahedron_edges.size(); ++e)
+      {
+        const auto &[v, w] = tetrahedron_edges[e];
+        edge[v][w] = edge[w][v] = e;
+      }
     TenNodes &nodes = ten_nodes[number / n_lanes];
     for (unsigned int a = 0; a < Quadratic::n_nodes; ++a)
       {

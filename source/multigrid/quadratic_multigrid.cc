@@ -10,9 +10,8 @@ namespace Supple
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> dofs,
     const SymmetricBlockMatrix &A_vertices,
     VertexLevel of_vertices)
-    : Cycle(dofs)
+    : Cycle(A, std::move(dofs))
     , level(std::move(of_vertices))
-    , finest(A, halo)
     , vertices(A_vertices, level.dofs)
     , start(vertices.halo.n_owned + 1)
     , b(vertices.halo.n_local)

@@ -126,10 +126,7 @@ namespace Supple
 
         // Near the equilibrium the energy changes by less than it is accurate; the forces tell
         // more.
-        const double work =
-          loads_follow ? load_factor * model.forces.work_along(configuration, 1., start) : 0.;
-        if (model.forces.energy(configuration, 1., load_factor) - work <=
-              energy_before - 1e-4 * part * slope ||
+        if (energy_along(start, load_factor) <= energy_before - 1e-4 * part * slope ||
             free_residual.l2_norm() <= imbalance_before)
           return;
       }
@@ -302,6 +299,24 @@ namespace Supple
   }
 
 
+  void
+  StaticEquilibrium::count_correction(const unsigned int n_linear_iterations, StepReport &report)
+  {
+    report.linear_iterations += n_linear_iterations;
+    ++report.newton_iterations;
+    ++model.effort.newton_iterations;
+  }
+
+
+  double
+  StaticEquilibrium::energy_along(const Vector &start, const double load_factor) const
+  {
+    const double work =
+      loads_follow ? load_factor * model.forces.work_along(model.configuration, 1., start) : 0.;
+    return model.forces.energy(model.configuration, 1., load_factor) - work;
+  }
+
+
   bool
   StaticEquilibrium::is_balanced(const double load_factor) const
   {
@@ -322,9 +337,7 @@ namespace Supple
       {
         const double before = free_residual.l2_norm();
         assemble(Tangent::consistent, load_factor);
-        report.linear_iterations += model.solver.solve(correction, free_residual);
-        ++report.newton_iterations;
-        ++model.effort.newton_iterations;
+        count_correction(model.solver.solve(correction, free_residual), report);
         configuration.foresee_strains();
         configuration.state.displacement.add(model.forces.largest_step(configuration, correction),
                                              correction);
@@ -349,14 +362,9 @@ namespace Supple
     try
       {
         correct_by_foreseen_strains(load_factor, report);
-        if (all_finite(residual) && is_balanced(load_factor) && n_inverted() <= n_inverted_before)
-          {
-            const double work =
-              loads_follow ? load_factor * model.forces.work_along(model.configuration, 1., start)
-                           : 0.;
-            if (model.forces.energy(model.configuration, 1., load_factor) - work <= energy_at_first)
-              return true;
-          }
+        if (all_finite(residual) && is_balanced(load_factor) && n_inverted() <= n_inverted_before &&
+            energy_along(start, load_factor) <= energy_at_first)
+          return true;
       }
     catch (const ComputationError &)
       {
@@ -388,10 +396,9 @@ namespace Supple
         if (n == model.time.newton_limit)
           throw_not_converged(free_residual.l2_norm() / size_of_forces(load_factor));
 
-        report.linear_iterations += find_correction(load_factor);
+        const unsigned int n_linear_iterations = find_correction(load_factor);
         add_correction(load_factor);
-        ++report.newton_iterations;
-        ++model.effort.newton_iterations;
+        count_correction(n_linear_iterations, report);
       }
   }
 } // namespace Supple

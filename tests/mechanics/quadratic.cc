@@ -12,6 +12,7 @@
 #include <random>
 
 #include "driver/checks.h"
+#include "driver/displacements.h"
 #include "driver/elastic_cells.h"
 
 using namespace Supple;
@@ -89,16 +90,10 @@ namespace
       return ElasticCells(positions, n_owned, cells, lumped, 0., Section(), n_threads, true);
     }
 
-    /** u = G x + waves sin(...) */
     Nodal
     displacement(const Matrix &G, const double waves = 0.) const
     {
-      Nodal u;
-      for (const auto &x : positions)
-        for (unsigned int i = 0; i < 3; ++i)
-          u.push_back(G[3 * i] * x[0] + G[3 * i + 1] * x[1] + G[3 * i + 2] * x[2] +
-                      waves * std::sin(3. * x[(i + 1) % 3] + 2. * x[i] + i));
-      return u;
+      return wavy_displacement(positions, G, waves);
     }
 
     /** Numbers that look random. */
@@ -131,20 +126,6 @@ namespace
 
 
   const Matrix stretch = {{0.1, 0.05, 0., -0.02, -0.04, 0.03, 0., 0.06, 0.05}};
-
-
-  /** A rotation by an angle about (1, 2, 2)/3, minus the identity. */
-  Matrix
-  turn(const double angle)
-  {
-    const double a[3] = {1. / 3., 2. / 3., 2. / 3.}, c = std::cos(angle), s = std::sin(angle);
-    const double K[9] = {0., -a[2], a[1], a[2], 0., -a[0], -a[1], a[0], 0.};
-    Matrix Q;
-    for (unsigned int i = 0; i < 3; ++i)
-      for (unsigned int j = 0; j < 3; ++j)
-        Q[3 * i + j] = (1. - c) * (a[i] * a[j] - (i == j ? 1. : 0.)) + s * K[3 * i + j];
-    return Q;
-  }
 
 
   Nodal
@@ -222,10 +203,10 @@ namespace
     const double size    = largest(box.force(elastic, bent));
 
     report("rigid turn: force",
-           largest(box.force(elastic, box.displacement(turn(2.)))) / size,
+           largest(box.force(elastic, box.displacement(rigid_rotation(2.)))) / size,
            1e-13);
     report("rigid turn: energy",
-           box.energy(elastic, box.displacement(turn(2.))) / box.energy(elastic, bent),
+           box.energy(elastic, box.displacement(rigid_rotation(2.))) / box.energy(elastic, bent),
            1e-14);
 
     Nodal f      = box.force(elastic, box.displacement(stretch));

@@ -40,9 +40,17 @@ namespace Supple
     void
     add_traction(double time, Vector &to) const;
 
-    /** The same on faces of quadratic cells. */
-    void
-    add_quadratic_traction(double time, Vector &to) const;
+    /** The nodes of a face: places [m] and tractions [Pa]. */
+    template <unsigned int n>
+    struct TractionFace
+    {
+      std::array<dealii::Point<3>, n> x;
+      std::array<dealii::Tensor<1, 3>, n> values;
+    };
+
+    template <unsigned int n>
+    TractionFace<n>
+    traction_on(const std::array<unsigned int, n> &nodes, double time) const;
 
     const Body &body;
     const Expression body_force, nodal_force, traction;

@@ -8,14 +8,16 @@
 
 namespace Supple
 {
-  /** What a Law made of formulas is, whatever its cells are like. */
-  template <class Formulas>
+  /** What a Law made of formulas is, whatever its cells are like. @p Sweeps is what is derived of
+   * it, and adds the tangent of a batch by add_tangent_of_batch(). */
+  template <class Formulas, class Sweeps>
   class LawOf : public Law
   {
   public:
     LawOf(const Formulas &formulas, const Cells &cells)
       : formulas(formulas)
       , cells(cells)
+      , volume_stiffness(cells)
     {
     }
 
@@ -43,11 +45,70 @@ namespace Supple
       return formulas.has_rotations();
     }
 
+    bool
+    tangent_is_frozen() const override
+    {
+      return turning.empty() && volume_stiffness.empty();
+    }
+
+    void
+    add_tangent(const CellRotations &rotations,
+                const double mass,
+                const double frozen,
+                const double turning_factor,
+                const CellSlots &slots,
+                SymmetricBlockMatrix &A,
+                const double added_bulk) const override
+    {
+      cells.for_batches_in_turn([&](const std::size_t b) {
+        ask_for_next(rotations.of_tangent(), b);
+        slots.ask_for_next_after(b);
+        sweeps().add_tangent_of_batch(
+          rotations, b, mass, frozen, turning_factor, slots, A, added_bulk);
+      });
+      if (cells.vertex_mass > 0.)
+        A.add_to_diagonal(mass * cells.vertex_mass);
+    }
+
+    std::size_t
+    n_turned(const CellRotations &rotations, const double angle) const override
+    {
+      const double bound = square_of_difference(angle);
+      std::size_t n      = 0;
+      for (std::size_t b = 0; b < rotations.kept.size() / cells.n_points(); ++b)
+        n +=
+          std::experimental::popcount(has_turned(rotations, b, bound) && cells.batch(b).owned > 0.);
+      return n;
+    }
+
+    void
+    renew_tangent(CellRotations &rotations,
+                  const double angle,
+                  const double frozen,
+                  const CellSlots &slots,
+                  SymmetricBlockMatrix &A) const override
+    {
+      const double bound          = square_of_difference(angle);
+      const unsigned int n_points = cells.n_points();
+      for (std::size_t b = 0; b < rotations.kept.size() / n_points; ++b)
+        {
+          const Pack::mask_type turned = has_turned(rotations, b, bound);
+          if (std::experimental::none_of(turned))
+            continue;
+          sweeps().add_tangent_of_batch(rotations, b, 0., -frozen, 0., slots, A, 0.);
+          for (std::size_t place = n_points * b; place < n_points * (b + 1); ++place)
+            for (unsigned int k = 0; k < 9; ++k)
+              std::experimental::where(turned, rotations.kept[place].entries[k]) =
+                rotations.current[place].entries[k];
+          sweeps().add_tangent_of_batch(rotations, b, 0., frozen, 0., slots, A, 0.);
+        }
+    }
+
   protected:
     static Matrix3<Pack>
-    rotation_of(const CellRotations::List &rotations, const std::size_t b)
+    rotation_of(const CellRotations::List &rotations, const std::size_t place)
     {
-      return rotations.empty() ? Matrix3<Pack>::identity() : rotations[b];
+      return rotations.empty() ? Matrix3<Pack>::identity() : rotations[place];
     }
 
     /** |R - R'|^2 of two rotations that differ by this angle. */
@@ -58,18 +119,123 @@ namespace Supple
       return 8. * sine * sine;
     }
 
-    /** Whether cells have turned by more than an angle with this 8 sin(angle/2)^2. */
-    static Pack::mask_type
-    has_turned(const CellRotations &rotations, const std::size_t b, const double bound)
+    /** Whether a point of a cell has turned by more than an angle with this 8 sin(angle/2)^2. */
+    Pack::mask_type
+    has_turned(const CellRotations &rotations, const std::size_t b, const double bound) const
     {
-      Matrix3<Pack> difference = rotations.current[b];
-      for (unsigned int k = 0; k < 9; ++k)
-        difference.entries[k] -= rotations.kept[b].entries[k];
-      return norm_square(difference) > bound;
+      const unsigned int n_points = cells.n_points();
+      Pack::mask_type turned(false);
+      for (std::size_t place = n_points * b; place < n_points * (b + 1); ++place)
+        {
+          Matrix3<Pack> difference = rotations.current[place];
+          for (unsigned int k = 0; k < 9; ++k)
+            difference.entries[k] -= rotations.kept[place].entries[k];
+          turned = turned || norm_square(difference) > bound;
+        }
+      return turned;
+    }
+
+    /** What the patches add to a tangent, and places for what the rotations add; false if these add
+     * nothing. @param mean_stress as for update_tangent() */
+    bool
+    prepare_turning(const Tangent tangent,
+                    const double *displacement,
+                    const MeanStress *mean_stress)
+    {
+      volume_stiffness.clear();
+      if (tangent == Tangent::consistent && mean_stress &&
+          mean_stress->measure == VolumeMeasure::determinant)
+        volume_stiffness.update(displacement, mean_stress->of_points);
+
+      const bool turns = tangent != Tangent::frozen && !is_linear();
+      turning.resize(turns ? cells.n_points() * cells.n_batches() : 0);
+      return turns;
+    }
+
+    /** What is not the own stress of the cells of a batch at a point, in the measure `trace`. */
+    Pack
+    foreign_mean_stress(const MeanStress *mean_stress,
+                        const std::size_t b,
+                        const unsigned int q) const
+    {
+      Pack s(0.);
+      if (mean_stress && mean_stress->measure == VolumeMeasure::trace)
+        cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
+          s[lane] = mean_stress->of_points[cells.n_points() * cell + q];
+        });
+      return s;
+    }
+
+    /** Energy and extremes of some batches, before they are those of all. */
+    struct DeformationSum
+    {
+      Pack elastic, inverted, smallest, largest;
+
+      /** @param counted the lanes that this process owns */
+      void
+      include(const Pack &volume_ratio, const Pack::mask_type &counted)
+      {
+        using std::experimental::where;
+        where(counted && volume_ratio < smallest, smallest) = volume_ratio;
+        where(counted && volume_ratio > largest, largest)   = volume_ratio;
+      }
+    };
+
+    /** @param add called with each batch and the sum it goes to */
+    template <class Add>
+    Deformation
+    sum_of_deformations(const Add &add) const
+    {
+      namespace stdx = std::experimental;
+
+      Deformation result;
+      const DeformationSum zero{0., 0., result.min_volume_ratio, result.max_volume_ratio};
+      for (const DeformationSum &sum : cells.sums_of_chunks(zero, add))
+        {
+          result.elastic += stdx::reduce(sum.elastic);
+          result.min_volume_ratio = std::min(result.min_volume_ratio, stdx::hmin(sum.smallest));
+          result.max_volume_ratio = std::max(result.max_volume_ratio, stdx::hmax(sum.largest));
+          result.inverted += static_cast<unsigned int>(stdx::reduce(sum.inverted));
+        }
+      return result;
+    }
+
+    /** Calls action(cell, lane, state) for the cells of a batch with what is drawn of them at a
+     * point. */
+    template <class Action>
+    void
+    for_states(const std::size_t b,
+               const Pack &volume_ratio,
+               const Matrix3<Pack> &R,
+               const Matrix3<Pack> &stress,
+               const Action &action) const
+    {
+      Matrix3<Pack> deviator = stress;
+      const Pack mean        = trace(stress) / 3.;
+      for (unsigned int i = 0; i < 3; ++i)
+        deviator(i, i) -= mean;
+      const Pack von_mises = std::experimental::sqrt(1.5 * norm_square(deviator));
+      const Pack cosine    = 0.5 * (trace(R) - 1.);
+      cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
+        const double c = std::min(1., std::max(-1., double(cosine[lane])));
+        action(
+          cell,
+          lane,
+          CellState{volume_ratio[lane], von_mises[lane], std::acos(c) * 180. / M_PI, -mean[lane]});
+      });
     }
 
     const Formulas formulas;
     const Cells &cells;
+    std::vector<typename Formulas::Turning> turning; ///< of the points; empty for frozen rotations
+    VolumeStiffness volume_stiffness;                ///< empty but for determinants
+
+  private:
+    const Sweeps &
+    sweeps() const
+    {
+      return static_cast<const Sweeps &>(*this);
+    }
   };
 
 
@@ -96,14 +262,12 @@ namespace Supple
    * Stiffness damping counts on a stress that is linear in F with R held, up to a constant.
    */
   template <class Formulas>
-  class LawSweeps : public LawOf<Formulas>
+  class LawSweeps : public LawOf<Formulas, LawSweeps<Formulas>>
   {
+    using Base = LawOf<Formulas, LawSweeps<Formulas>>;
+
   public:
-    LawSweeps(const Formulas &formulas, const Cells &cells)
-      : LawOf<Formulas>(formulas, cells)
-      , volume_stiffness(cells)
-    {
-    }
+    using Base::Base;
 
     void
     update_rotations(const double *displacement, CellRotations::List &rotations) const override
@@ -175,12 +339,6 @@ namespace Supple
                    const double *displacement,
                    const MeanStress *mean_stress) override;
 
-    bool
-    tangent_is_frozen() const override
-    {
-      return turning.empty() && volume_stiffness.empty();
-    }
-
     void
     add_frozen_product(const CellRotations &rotations,
                        const double factor,
@@ -221,24 +379,6 @@ namespace Supple
     }
 
     void
-    add_tangent(const CellRotations &rotations,
-                const double mass,
-                const double frozen,
-                const double turning_factor,
-                const CellSlots &slots,
-                SymmetricBlockMatrix &A,
-                const double added_bulk) const override
-    {
-      cells.for_batches_in_turn([&](const std::size_t b) {
-        ask_for_next(rotations.of_tangent(), b);
-        slots.ask_for_next_after(b);
-        add_tangent_of_batch(rotations, b, mass, frozen, turning_factor, slots, A, added_bulk);
-      });
-      if (cells.vertex_mass > 0.)
-        A.add_to_diagonal(mass * cells.vertex_mass);
-    }
-
-    void
     add_vertex_tangent(const CellRotations &rotations,
                        const double mass,
                        const double frozen,
@@ -247,47 +387,16 @@ namespace Supple
                        SymmetricBlockMatrix &A,
                        const double added_bulk) const override
     {
-      add_tangent(rotations, mass, frozen, turning_factor, slots, A, added_bulk);
-    }
-
-    std::size_t
-    n_turned(const CellRotations &rotations, const double angle) const override
-    {
-      const double bound = square_of_difference(angle);
-      std::size_t n      = 0;
-      for (std::size_t b = 0; b < rotations.kept.size(); ++b)
-        n +=
-          std::experimental::popcount(has_turned(rotations, b, bound) && cells.batch(b).owned > 0.);
-      return n;
-    }
-
-    void
-    renew_tangent(CellRotations &rotations,
-                  const double angle,
-                  const double frozen,
-                  const CellSlots &slots,
-                  SymmetricBlockMatrix &A) const override
-    {
-      const double bound = square_of_difference(angle);
-      for (std::size_t b = 0; b < rotations.kept.size(); ++b)
-        {
-          const Pack::mask_type turned = has_turned(rotations, b, bound);
-          if (std::experimental::none_of(turned))
-            continue;
-          add_tangent_of_batch(rotations, b, 0., -frozen, 0., slots, A, 0.);
-          for (unsigned int k = 0; k < 9; ++k)
-            std::experimental::where(turned, rotations.kept[b].entries[k]) =
-              rotations.current[b].entries[k];
-          add_tangent_of_batch(rotations, b, 0., frozen, 0., slots, A, 0.);
-        }
+      this->add_tangent(rotations, mass, frozen, turning_factor, slots, A, added_bulk);
     }
 
   private:
-    using LawOf<Formulas>::formulas;
-    using LawOf<Formulas>::cells;
-    using LawOf<Formulas>::rotation_of;
-    using LawOf<Formulas>::square_of_difference;
-    using LawOf<Formulas>::has_turned;
+    friend Base;
+    using Base::cells;
+    using Base::formulas;
+    using Base::rotation_of;
+    using Base::turning;
+    using Base::volume_stiffness;
 
     /** In the rotated frame, without what formulas in space have along z in plane stress. */
     Matrix3<Pack>
@@ -353,9 +462,6 @@ namespace Supple
                    const CellSlots &slots,
                    SymmetricBlockMatrix &A,
                    double added_bulk) const;
-
-    std::vector<typename Formulas::Turning> turning; ///< empty for frozen rotations
-    VolumeStiffness volume_stiffness;                ///< empty but for determinants
   };
 
 
@@ -432,31 +538,15 @@ namespace Supple
                                       const double *displacement,
                                       const MeanStress *mean_stress)
   {
-    const bool by_determinant = mean_stress && mean_stress->measure == VolumeMeasure::determinant;
-    volume_stiffness.clear();
-    if (tangent == Tangent::consistent && by_determinant)
-      volume_stiffness.update(displacement, mean_stress->of_points);
-
-    if (tangent == Tangent::frozen || this->is_linear())
-      {
-        turning.clear();
-        return;
-      }
-    turning.resize(cells.n_batches());
+    if (!this->prepare_turning(tangent, displacement, mean_stress))
+      return;
     for (std::size_t b = 0; b < turning.size(); ++b)
-      {
-        Pack s(0.);
-        if (mean_stress && !by_determinant)
-          cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
-            s[lane] = mean_stress->of_points[cell];
-          });
-        turning[b] = formulas.turning(cells.batch(b),
-                                      rotation_of(rotations.current, b),
-                                      rotation_of(rotations.of_strain(), b),
-                                      cells.deformation_gradient(b, displacement),
-                                      s,
-                                      tangent == Tangent::definite);
-      }
+      turning[b] = formulas.turning(cells.batch(b),
+                                    rotation_of(rotations.current, b),
+                                    rotation_of(rotations.of_strain(), b),
+                                    cells.deformation_gradient(b, displacement),
+                                    this->foreign_mean_stress(mean_stress, b, 0),
+                                    tangent == Tangent::definite);
   }
 
 
@@ -481,36 +571,17 @@ namespace Supple
   Deformation
   LawSweeps<Formulas>::deformation(const CellRotations &rotations, const double *displacement) const
   {
-    namespace stdx = std::experimental;
-
-    struct Sum
-    {
-      Pack elastic, inverted, smallest, largest;
-    };
-    Deformation result;
-    const auto add = [&](const std::size_t b, Sum &sum) {
+    return this->sum_of_deformations([&](const std::size_t b, auto &sum) {
       ask_for_next(rotations.current, b);
       const Cells::Batch &batch = cells.batch(b);
       const Matrix3<Pack> F     = cells.deformation_gradient(b, displacement);
       sum.elastic += batch.owned * batch.volume *
                      formulas.energy_density(batch, rotation_of(rotations.current, b), F);
 
-      const Pack ratio   = volume_ratio(b, rotation_of(rotations.current, b), F);
       const auto counted = batch.owned > 0.;
-
-      stdx::where(counted && ratio < sum.smallest, sum.smallest) = ratio;
-      stdx::where(counted && ratio > sum.largest, sum.largest)   = ratio;
-      stdx::where(counted && !(determinant(F) > 0.), sum.inverted) += 1.;
-    };
-    const Sum zero{0., 0., result.min_volume_ratio, result.max_volume_ratio};
-    for (const Sum &sum : cells.sums_of_chunks(zero, add))
-      {
-        result.elastic += stdx::reduce(sum.elastic);
-        result.min_volume_ratio = std::min(result.min_volume_ratio, stdx::hmin(sum.smallest));
-        result.max_volume_ratio = std::max(result.max_volume_ratio, stdx::hmax(sum.largest));
-        result.inverted += static_cast<unsigned int>(stdx::reduce(sum.inverted));
-      }
-    return result;
+      sum.include(volume_ratio(b, rotation_of(rotations.current, b), F), counted);
+      std::experimental::where(counted && !(determinant(F) > 0.), sum.inverted) += 1.;
+    });
   }
 
 
@@ -518,26 +589,18 @@ namespace Supple
   std::vector<CellState>
   LawSweeps<Formulas>::states(const CellRotations &rotations, const double *displacement) const
   {
-    namespace stdx = std::experimental;
-
     std::vector<CellState> states(cells.n_cells);
     cells.for_batches([&](const std::size_t b) {
       ask_for_next(rotations.current, b);
       const Matrix3<Pack> F = cells.deformation_gradient(b, displacement);
       const Matrix3<Pack> R = rotation_of(rotations.current, b);
-
-      Matrix3<Pack> deviator = stress_in_section(b, R, F);
-      const Pack mean        = trace(deviator) / 3.;
-      for (unsigned int i = 0; i < 3; ++i)
-        deviator(i, i) -= mean;
-
-      const Pack von_mises = stdx::sqrt(1.5 * norm_square(deviator));
-      const Pack ratio     = volume_ratio(b, R, F);
-      const Pack cosine    = 0.5 * (trace(R) - 1.);
-      cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
-        const double c = std::min(1., std::max(-1., double(cosine[lane])));
-        states[cell]   = {ratio[lane], von_mises[lane], std::acos(c) * 180. / M_PI, -mean[lane]};
-      });
+      this->for_states(b,
+                       volume_ratio(b, R, F),
+                       R,
+                       stress_in_section(b, R, F),
+                       [&](const std::size_t cell, unsigned int, const CellState &state) {
+                         states[cell] = state;
+                       });
     });
     return states;
   }

@@ -18,14 +18,12 @@ namespace Supple
    * its points is.
    */
   template <class Formulas>
-  class QuadraticSweeps : public LawOf<Formulas>
+  class QuadraticSweeps : public LawOf<Formulas, QuadraticSweeps<Formulas>>
   {
+    using Base = LawOf<Formulas, QuadraticSweeps<Formulas>>;
+
   public:
-    QuadraticSweeps(const Formulas &formulas, const Cells &cells)
-      : LawOf<Formulas>(formulas, cells)
-      , volume_stiffness(cells)
-    {
-    }
+    using Base::Base;
 
     void
     update_rotations(const double *displacement, CellRotations::List &rotations) const override
@@ -45,21 +43,14 @@ namespace Supple
                    const double *displacement,
                    double *force) const override
     {
-      cells.for_batches_in_turn([&](const std::size_t b) {
-        const auto W = corner_values(b, displacement);
-        Quadratic::PointValues f;
-        for (unsigned int q = 0; q < n_points; ++q)
-          {
-            const Batch point     = cells.point(b, q);
-            const Matrix3<Pack> R = this->rotation_of(rotations.current, n_points * b + q);
-            f[q] =
-              Quadratic::divergence(point,
-                                    R *
-                                      formulas.stress(point, R, deformation_gradient(point, W[q])),
-                                    point.volume);
-          }
-        Quadratic::scatter<-1>(cells.nodes_of(b), Quadratic::to_nodes(f), force);
-      });
+      scatter_stresses<-1>(
+        rotations,
+        displacement,
+        1.,
+        [this](const Batch &point, const auto &R, const NodalPack &W) {
+          return formulas.stress(point, R, deformation_gradient(point, W));
+        },
+        force);
     }
 
     Deformation
@@ -77,7 +68,7 @@ namespace Supple
         for (unsigned int q = 0; q < n_points; ++q)
           {
             const Batch point     = cells.point(b, q);
-            const Matrix3<Pack> R = this->rotation_of(rotations.current, n_points * b + q);
+            const Matrix3<Pack> R = rotation_of(rotations.current, n_points * b + q);
             P[n_points * b + q] = R * formulas.stress(point, R, deformation_gradient(point, W[q]));
           }
       });
@@ -93,32 +84,20 @@ namespace Supple
                    const double *displacement,
                    const MeanStress *mean_stress) override;
 
-    bool
-    tangent_is_frozen() const override
-    {
-      return turning.empty() && volume_stiffness.empty();
-    }
-
     void
     add_frozen_product(const CellRotations &rotations,
                        const double factor,
                        const double *w,
                        double *y) const override
     {
-      cells.for_batches_in_turn([&](const std::size_t b) {
-        const auto W = corner_values(b, w);
-        Quadratic::PointValues f;
-        for (unsigned int q = 0; q < n_points; ++q)
-          {
-            const Batch point     = cells.point(b, q);
-            const Matrix3<Pack> R = this->rotation_of(rotations.current, n_points * b + q);
-            f[q]                  = Quadratic::divergence(
-              point,
-              R * formulas.stress_change(point, R, Quadratic::gradient(point, W[q])),
-              factor * point.volume);
-          }
-        Quadratic::scatter(cells.nodes_of(b), Quadratic::to_nodes(f), y);
-      });
+      scatter_stresses<1>(
+        rotations,
+        w,
+        factor,
+        [this](const Batch &point, const auto &R, const NodalPack &W) {
+          return formulas.stress_change(point, R, Quadratic::gradient(point, W));
+        },
+        y);
     }
 
     void
@@ -126,23 +105,6 @@ namespace Supple
                         double factor,
                         const double *w,
                         double *y) const override;
-
-    void
-    add_tangent(const CellRotations &rotations,
-                const double mass,
-                const double frozen,
-                const double turning_factor,
-                const CellSlots &slots,
-                SymmetricBlockMatrix &A,
-                const double added_bulk) const override
-    {
-      cells.for_batches_in_turn([&](const std::size_t b) {
-        ask_for_next(rotations.of_tangent(), b);
-        add_tangent_of_batch(rotations, b, mass, frozen, turning_factor, slots, A, added_bulk);
-      });
-      if (cells.vertex_mass > 0.)
-        A.add_to_diagonal(mass * cells.vertex_mass);
-    }
 
     void
     add_vertex_tangent(const CellRotations &rotations,
@@ -153,27 +115,13 @@ namespace Supple
                        SymmetricBlockMatrix &A,
                        double added_bulk) const override;
 
-    std::size_t
-    n_turned(const CellRotations &rotations, const double angle) const override
-    {
-      const double bound = this->square_of_difference(angle);
-      std::size_t n      = 0;
-      for (std::size_t b = 0; b < rotations.kept.size() / n_points; ++b)
-        n +=
-          std::experimental::popcount(has_turned(rotations, b, bound) && cells.batch(b).owned > 0.);
-      return n;
-    }
-
-    void
-    renew_tangent(CellRotations &rotations,
-                  double angle,
-                  double frozen,
-                  const CellSlots &slots,
-                  SymmetricBlockMatrix &A) const override;
-
   private:
-    using LawOf<Formulas>::formulas;
-    using LawOf<Formulas>::cells;
+    friend Base;
+    using Base::cells;
+    using Base::formulas;
+    using Base::rotation_of;
+    using Base::turning;
+    using Base::volume_stiffness;
     using Batch     = Cells::Batch;
     using NodalPack = Cells::NodalPack;
 
@@ -206,14 +154,27 @@ namespace Supple
       return R.empty() ? point.gradients : formulas.rotated_gradients(point, R[place]);
     }
 
-    /** Whether a point of a cell has turned by more than an angle with this 8 sin(angle/2)^2. */
-    static Pack::mask_type
-    has_turned(const CellRotations &rotations, const std::size_t b, const double bound)
+    /** Adds factor times the forces of a stress at all points to the nodes, or subtracts them.
+     * @param stress (point, R, corner values) in the rotated frame */
+    template <int sign, class Stress>
+    void
+    scatter_stresses(const CellRotations &rotations,
+                     const double *nodal,
+                     const double factor,
+                     const Stress &stress,
+                     double *to) const
     {
-      Pack::mask_type turned(false);
-      for (unsigned int q = 0; q < n_points; ++q)
-        turned = turned || LawOf<Formulas>::has_turned(rotations, n_points * b + q, bound);
-      return turned;
+      cells.for_batches_in_turn([&](const std::size_t b) {
+        const auto W = corner_values(b, nodal);
+        Quadratic::PointValues f;
+        for (unsigned int q = 0; q < n_points; ++q)
+          {
+            const Batch point     = cells.point(b, q);
+            const Matrix3<Pack> R = rotation_of(rotations.current, n_points * b + q);
+            f[q] = Quadratic::divergence(point, R * stress(point, R, W[q]), factor * point.volume);
+          }
+        Quadratic::scatter<sign>(cells.nodes_of(b), Quadratic::to_nodes(f), to);
+      });
     }
 
     /** The columns of the part of corners k, l in the second derivative of det F at a point. */
@@ -263,9 +224,6 @@ namespace Supple
               const CellSlots::Slot &slot,
               unsigned int transposed,
               double *values);
-
-    std::vector<typename Formulas::Turning> turning; ///< of the points; empty for frozen rotations
-    VolumeStiffness volume_stiffness;                ///< empty but for determinants
   };
 
 
@@ -300,33 +258,19 @@ namespace Supple
                                             const double *displacement,
                                             const MeanStress *const mean_stress)
   {
-    const bool by_determinant = mean_stress && mean_stress->measure == VolumeMeasure::determinant;
-    volume_stiffness.clear();
-    if (tangent == Tangent::consistent && by_determinant)
-      volume_stiffness.update(displacement, mean_stress->of_points);
-
-    if (tangent == Tangent::frozen || this->is_linear())
-      {
-        turning.clear();
-        return;
-      }
-    turning.resize(n_points * cells.n_batches());
+    if (!this->prepare_turning(tangent, displacement, mean_stress))
+      return;
     cells.for_batches([&](const std::size_t b) {
       const auto W = corner_values(b, displacement);
       for (unsigned int q = 0; q < n_points; ++q)
         {
           const Batch point = cells.point(b, q);
-          Pack s(0.);
-          if (mean_stress && !by_determinant)
-            cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
-              s[lane] = mean_stress->of_points[n_points * cell + q];
-            });
           turning[n_points * b + q] =
             formulas.turning(point,
-                             this->rotation_of(rotations.current, n_points * b + q),
-                             this->rotation_of(rotations.of_strain(), n_points * b + q),
+                             rotation_of(rotations.current, n_points * b + q),
+                             rotation_of(rotations.of_strain(), n_points * b + q),
                              deformation_gradient(point, W[q]),
-                             s,
+                             this->foreign_mean_stress(mean_stress, b, q),
                              tangent == Tangent::definite);
         }
     });
@@ -340,7 +284,7 @@ namespace Supple
                                                  const double *w,
                                                  double *y) const
   {
-    if (tangent_is_frozen())
+    if (this->tangent_is_frozen())
       return;
     cells.for_batches_in_turn([&](const std::size_t b) {
       const auto W = corner_values(b, w);
@@ -368,30 +312,6 @@ namespace Supple
         }
       Quadratic::scatter(cells.nodes_of(b), Quadratic::to_nodes(f), y);
     });
-  }
-
-
-  template <class Formulas>
-  void
-  QuadraticSweeps<Formulas>::renew_tangent(CellRotations &rotations,
-                                           const double angle,
-                                           const double frozen,
-                                           const CellSlots &slots,
-                                           SymmetricBlockMatrix &A) const
-  {
-    const double bound = this->square_of_difference(angle);
-    for (std::size_t b = 0; b < rotations.kept.size() / n_points; ++b)
-      {
-        const Pack::mask_type turned = has_turned(rotations, b, bound);
-        if (std::experimental::none_of(turned))
-          continue;
-        add_tangent_of_batch(rotations, b, 0., -frozen, 0., slots, A, 0.);
-        for (std::size_t place = n_points * b; place < n_points * (b + 1); ++place)
-          for (unsigned int k = 0; k < 9; ++k)
-            std::experimental::where(turned, rotations.kept[place].entries[k]) =
-              rotations.current[place].entries[k];
-        add_tangent_of_batch(rotations, b, 0., frozen, 0., slots, A, 0.);
-      }
   }
 
 
@@ -564,41 +484,22 @@ namespace Supple
   QuadraticSweeps<Formulas>::deformation(const CellRotations &rotations,
                                          const double *displacement) const
   {
-    namespace stdx = std::experimental;
-
-    struct Sum
-    {
-      Pack elastic, inverted, smallest, largest;
-    };
-    Deformation result;
-    const auto add = [&](const std::size_t b, Sum &sum) {
+    return this->sum_of_deformations([&](const std::size_t b, auto &sum) {
       const auto W       = corner_values(b, displacement);
       const auto counted = cells.batch(b).owned > 0.;
-      Pack least(result.min_volume_ratio);
       Pack::mask_type inverted(false);
       for (unsigned int q = 0; q < n_points; ++q)
         {
           const Batch point     = cells.point(b, q);
           const Matrix3<Pack> F = deformation_gradient(point, W[q]);
-          const Matrix3<Pack> R = this->rotation_of(rotations.current, n_points * b + q);
+          const Matrix3<Pack> R = rotation_of(rotations.current, n_points * b + q);
           sum.elastic += point.owned * point.volume * formulas.energy_density(point, R, F);
           const Pack ratio = determinant(F);
           inverted         = inverted || !(ratio > 0.);
-
-          stdx::where(counted && ratio < sum.smallest, sum.smallest) = ratio;
-          stdx::where(counted && ratio > sum.largest, sum.largest)   = ratio;
+          sum.include(ratio, counted);
         }
-      stdx::where(counted && inverted, sum.inverted) += 1.;
-    };
-    const Sum zero{0., 0., result.min_volume_ratio, result.max_volume_ratio};
-    for (const Sum &sum : cells.sums_of_chunks(zero, add))
-      {
-        result.elastic += stdx::reduce(sum.elastic);
-        result.min_volume_ratio = std::min(result.min_volume_ratio, stdx::hmin(sum.smallest));
-        result.max_volume_ratio = std::max(result.max_volume_ratio, stdx::hmax(sum.largest));
-        result.inverted += static_cast<unsigned int>(stdx::reduce(sum.inverted));
-      }
-    return result;
+      std::experimental::where(counted && inverted, sum.inverted) += 1.;
+    });
   }
 
 
@@ -607,8 +508,6 @@ namespace Supple
   QuadraticSweeps<Formulas>::states(const CellRotations &rotations,
                                     const double *displacement) const
   {
-    namespace stdx = std::experimental;
-
     std::vector<CellState> states(cells.n_cells, CellState{0., 0., 0., 0.});
     cells.for_batches([&](const std::size_t b) {
       const auto W = corner_values(b, displacement);
@@ -617,23 +516,20 @@ namespace Supple
           const Batch point     = cells.point(b, q);
           const Pack part       = point.volume / cells.batch(b).volume;
           const Matrix3<Pack> F = deformation_gradient(point, W[q]);
-          const Matrix3<Pack> R = this->rotation_of(rotations.current, n_points * b + q);
-
-          Matrix3<Pack> deviator = formulas.stress(point, R, F);
-          const Pack mean        = trace(deviator) / 3.;
-          for (unsigned int i = 0; i < 3; ++i)
-            deviator(i, i) -= mean;
-          const Pack von_mises = stdx::sqrt(1.5 * norm_square(deviator));
-          const Pack ratio     = determinant(F);
-          const Pack cosine    = 0.5 * (trace(R) - 1.);
-          cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
-            const double weight = part[lane];
-            const double c      = std::min(1., std::max(-1., double(cosine[lane])));
-            states[cell].volume_ratio += weight * ratio[lane];
-            states[cell].von_mises_stress += weight * von_mises[lane];
-            states[cell].rotation_angle += weight * std::acos(c) * 180. / M_PI;
-            states[cell].pressure -= weight * mean[lane];
-          });
+          const Matrix3<Pack> R = rotation_of(rotations.current, n_points * b + q);
+          this->for_states(b,
+                           determinant(F),
+                           R,
+                           formulas.stress(point, R, F),
+                           [&](const std::size_t cell,
+                               const unsigned int lane,
+                               const CellState &state) {
+                             const double weight = part[lane];
+                             states[cell].volume_ratio += weight * state.volume_ratio;
+                             states[cell].von_mises_stress += weight * state.von_mises_stress;
+                             states[cell].rotation_angle += weight * state.rotation_angle;
+                             states[cell].pressure += weight * state.pressure;
+                           });
         }
     });
     return states;

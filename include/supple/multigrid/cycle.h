@@ -1,8 +1,8 @@
 #ifndef supple_cycle_h
 #define supple_cycle_h
 
-#include <supple/linear_algebra/halo.h>
 #include <supple/multigrid/coarse_level.h>
+#include <supple/multigrid/finest_level.h>
 
 #include <vector>
 
@@ -13,9 +13,14 @@ namespace Supple
   class Cycle
   {
   public:
-    /** @param dofs three for each node, as the matrix counts them */
-    explicit Cycle(std::shared_ptr<const dealii::Utilities::MPI::Partitioner> dofs)
+    /**
+     * @param A    stays in use; its values may change, its pattern not
+     * @param dofs three for each node, as A counts them
+     */
+    Cycle(const SymmetricBlockMatrix &A,
+          std::shared_ptr<const dealii::Utilities::MPI::Partitioner> dofs)
       : halo(std::move(dofs), 3)
+      , finest(A, halo)
     {
     }
 
@@ -44,13 +49,19 @@ namespace Supple
     apply(NodeValues<3> *z, NodeValues<3> *product, const NodeValues<3> *r) = 0;
 
     /** One over the mean of the diagonal entries: keeps single precision within its range. */
-    virtual double
-    scale() const = 0;
+    double
+    scale() const
+    {
+      return finest.scale();
+    }
 
     /** By what factor the mean of the diagonal entries has changed since all levels were computed.
      */
-    virtual double
-    change() const = 0;
+    double
+    change() const
+    {
+      return finest.change();
+    }
 
     /** Levels of aggregates. */
     virtual std::size_t
@@ -60,6 +71,9 @@ namespace Supple
     coarse_level(std::size_t l) const = 0;
 
     const Halo halo;
+
+  protected:
+    FinestLevel finest;
   };
 } // namespace Supple
 

@@ -10,82 +10,6 @@
 
 namespace Supple
 {
-  /** The finest level of a multigrid method: a SymmetricBlockMatrix in single precision and its
-   * smoother. */
-  class FinestLevel
-  {
-  public:
-    /** @param A stays in use; its values may change, its pattern not
-     * @param halo of its nodes, as well */
-    FinestLevel(const SymmetricBlockMatrix &A, const Halo &halo);
-
-    /** One over the mean of the diagonal entries when it was last set. */
-    double
-    scale() const
-    {
-      return factor;
-    }
-
-    /** By what factor the mean of the diagonal entries has changed since. */
-    double
-    change() const
-    {
-      return factor * mean_diagonal();
-    }
-
-    /** @throws ComputationError if the mean is not positive */
-    void
-    set_scale();
-
-    /** Takes the values that A has now. @throws ComputationError if a block on the diagonal is not
-     * positive definite */
-    void
-    refresh();
-
-    /** The first half of a cycle: x = (D + L)^-1 r, with ghosts, and residual() = r - A x. */
-    void
-    descend(NodeValues<3> *x, const NodeValues<3> *r);
-
-    std::vector<NodeValues<3>> &
-    residual()
-    {
-      return rest;
-    }
-
-    /** The second half: x has a correction, at ghosts too, and is swept backwards; product = A x.
-     */
-    void
-    ascend(NodeValues<3> *x, NodeValues<3> *product, const NodeValues<3> *r);
-
-    MatrixView<3>
-    view() const
-    {
-      return {A.pattern, A.lower.data(), A.diagonal.data()};
-    }
-
-    const BlockSmoother<3> &
-    smoother() const
-    {
-      return sweeps;
-    }
-
-  private:
-    double
-    mean_diagonal() const;
-
-    const SymmetricBlockMatrix &A;
-    const Halo &halo;
-    double factor = 1.;
-    BlockSmoother<3> sweeps;
-    std::vector<NodeValues<3>> rest, difference;
-  };
-
-
-  /** @throws ComputationError on all processes if a matrix is not positive definite on one */
-  void
-  require_positive(bool positive, const Halo &halo);
-
-
   /**
    * An approximate inverse of a SymmetricBlockMatrix by algebraic multigrid: smoothed aggregation
    * with the six rigid motions of the body (Coarsening), one sweep of Gauss-Seidel before and one
@@ -118,18 +42,6 @@ namespace Supple
 
     void
     apply(NodeValues<3> *z, NodeValues<3> *product, const NodeValues<3> *r) override;
-
-    double
-    scale() const override
-    {
-      return finest.scale();
-    }
-
-    double
-    change() const override
-    {
-      return finest.change();
-    }
 
     std::size_t
     n_coarse_levels() const override
@@ -168,7 +80,6 @@ namespace Supple
     void
     cycle(std::size_t level);
 
-    FinestLevel finest;
     std::unique_ptr<Coarsening<3>> coarsening;
     std::vector<std::unique_ptr<Level>> levels;
   };

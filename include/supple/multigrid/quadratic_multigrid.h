@@ -60,18 +60,6 @@ namespace Supple
     void
     apply(NodeValues<3> *z, NodeValues<3> *product, const NodeValues<3> *r) override;
 
-    double
-    scale() const override
-    {
-      return finest.scale();
-    }
-
-    double
-    change() const override
-    {
-      return finest.change();
-    }
-
     std::size_t
     n_coarse_levels() const override
     {
@@ -98,7 +86,6 @@ namespace Supple
     add_correction(NodeValues<3> *z) const;
 
     const VertexLevel level;
-    FinestLevel finest;
     Multigrid vertices;
     std::vector<std::size_t> start;          ///< of each own vertex in edges
     std::vector<std::uint32_t> edges;        ///< the nodes in the middles of edges at a vertex

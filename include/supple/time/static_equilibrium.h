@@ -79,6 +79,14 @@ namespace Supple
     unsigned int
     n_inverted() const;
 
+    void
+    count_correction(unsigned int n_linear_iterations, StepReport &report);
+
+    /** W(u) - s f.u, with the work of loads that follow on the way from @p start in place of f.u.
+     */
+    double
+    energy_along(const Vector &start, double load_factor) const;
+
     /** Whether what is out of balance is small beside the loads and the reactions, or beside
      * round-off. */
     bool
