@@ -22,6 +22,12 @@ namespace Supple
 
     /** Of each kind of load that a scene can have; null where it has none. */
     constexpr Maker load_makers[] = {DeadLoads::make, make_pressure, Gravity::make};
+
+    bool
+    is_dead_load(const Force &force)
+    {
+      return force.is_load() && force.is_linear();
+    }
   } // namespace
 
 
@@ -96,7 +102,7 @@ namespace Supple
   bool
   Forces::loads_follow() const
   {
-    return any([](const Force &force) { return force.is_load() && !force.is_linear(); });
+    return any([](const Force &force) { return force.is_load() && !is_dead_load(force); });
   }
 
 
@@ -132,6 +138,20 @@ namespace Supple
   Forces::set_loads(Vector &f, const Configuration &configuration, const double time) const
   {
     sum(f, configuration, time, [](const Force &force) { return force.is_load(); });
+  }
+
+
+  bool
+  Forces::have_dead_loads() const
+  {
+    return any(is_dead_load);
+  }
+
+
+  void
+  Forces::set_dead_loads(Vector &f, const Configuration &configuration, const double time) const
+  {
+    sum(f, configuration, time, is_dead_load);
   }
 
 

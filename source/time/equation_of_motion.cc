@@ -231,18 +231,28 @@ namespace Supple
   }
 
 
-  /** With motions f^I depends on time; without, that of the start of the step is asked for in each
-   * of its stages. */
   void
   EquationOfMotion::evaluate_implicit(double *f, const double time, const double *y)
   {
     // all processes or none: what follows is collective
     const bool same = has_start && std::equal(start.begin(), start.end(), y);
     if (has_start && Utilities::MPI::min(same ? 1 : 0, model.body.mesh.communicator) == 1)
+      std::copy(rates.begin(), rates.end(), f);
+    else
+      evaluate_unloaded(f, time, y);
+    if (!has_start && !model.constraints.move())
       {
-        std::copy(rates.begin(), rates.end(), f);
-        return;
+        has_start = true;
+        start.assign(y, y + 2 * n);
+        rates.assign(f, f + 2 * n);
       }
+    add_dead_loads(f, time);
+  }
+
+
+  void
+  EquationOfMotion::evaluate_unloaded(double *f, const double time, const double *y)
+  {
     const DampingParameters &damping = model.damping;
     set_configuration(time, y);
     model.implicit_operator.elastic_vmult(force,
@@ -261,12 +271,20 @@ namespace Supple
       model.constraints.set_zero(*vector);
     copy_out(f, scratch);
     copy_out(f + n, force);
-    if (!has_start && !model.constraints.move())
-      {
-        has_start = true;
-        start.assign(y, y + 2 * n);
-        rates.assign(f, f + 2 * n);
-      }
+  }
+
+
+  void
+  EquationOfMotion::add_dead_loads(double *f, const double time)
+  {
+    if (!model.forces.have_dead_loads())
+      return;
+    model.forces.set_dead_loads(force, model.configuration, time);
+    model.constraints.set_zero(force);
+    if (!all_finite(force))
+      throw ComputationError("the loads are not finite numbers");
+    for (unsigned int i = 0; i < n; ++i)
+      f[n + i] += force.local_element(i);
   }
 
 
@@ -282,6 +300,11 @@ namespace Supple
                                           model.configuration.displacement(),
                                           model.configuration.velocity());
     force += kept_force;
+    if (model.forces.have_dead_loads())
+      {
+        model.forces.set_dead_loads(kept_force, model.configuration, time);
+        force -= kept_force;
+      }
     model.constraints.set_zero(force);
     if (!all_finite(force))
       throw ComputationError("the forces are not finite numbers");

@@ -106,6 +106,14 @@ def scenes():
             error = apart(simulate({**base, **settings, **steps("imex5", 160, 0.35), **more}), exact)
             print(f"{what}, {name} steps: error {error:.1e}")
             runner.check(error < 1e-3, f"{what}, {name} steps: error {error}")
+    # A slow force on a stiff body, which long steps follow from equilibrium to equilibrium.
+    pushed = {**QUIET, "Material/Young modulus": 1e10, "Material/Mass": "lumped", "Start/Velocity": "0; 0; 0", "Loads/Gravity": "0, 0, 0",
+              "Loads/Body force": "0; 0; -2e7*sin(pi*t/1.4)^2"}
+    exact = simulate({**pushed, **steps("esdirk5", 640, 0.7)})
+    for method in ("imex4", "imex5"):
+        error = apart(simulate({**pushed, **steps(method, 10, 0.7), "Time/Variable steps": "true", "Time/Relative tolerance": 1e-2}), exact)
+        print(f"pushed slowly, {method}: error {error:.1e}")
+        runner.check(error < 3e-3, f"pushed slowly, {method}: error {error}")
     two = {**base, "Material/Poisson ratio": 0.4, "Material/Volumetric locking cure": "patches", **steps("imex5", 160, 0.35)}
     error = apart(simulate(two, ranks=2), simulate(two))
     print(f"two processes with patches: {error:.1e}")

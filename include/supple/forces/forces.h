@@ -84,6 +84,14 @@ namespace Supple
     void
     set_loads(Vector &f, const Configuration &configuration, double time) const;
 
+    /** Whether there are loads that do not depend on the displacement. */
+    bool
+    have_dead_loads() const;
+
+    /** f = the sum of the loads that do not depend on the displacement [N]. */
+    void
+    set_dead_loads(Vector &f, const Configuration &configuration, double time) const;
+
     /** f = the sum of the forces that are counted as work [N]. */
     void
     set_working(Vector &f, const Configuration &configuration, double time) const;

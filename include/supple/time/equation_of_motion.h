@@ -57,11 +57,12 @@ namespace Supple
     /**
      * Splits f = f^I + f^E for semi-implicit methods, from here on:
      *
-     *   f^I = (v, -K' (u + b v) - a M v - c v),   f^E = (0, all other forces),
+     *   f^I = (v, f_d(t) - K' (u + b v) - a M v - c v),   f^E = (0, all other forces),
      *
-     * K' with the rotations that the cells had at the last renew_splitting(): f^I is linear in the
-     * unknowns, and f^E what the rotations have added since, and the loads. Any K' is right; an old
-     * one makes long steps unstable.
+     * K' with the rotations that the cells had at the last renew_splitting(), f_d the loads that do
+     * not depend on the displacement: f^I is linear in the unknowns, and f^E what the rotations
+     * have added since, and the loads that follow. Any K' is right; an old one makes long steps
+     * unstable.
      */
     void
     split();
@@ -72,7 +73,8 @@ namespace Supple
     void
     renew_splitting(double gamma, double angle, bool wanted);
 
-    /** f^I, with M_ff as for evaluate(). */
+    /** f^I, with M_ff as for evaluate(). That of the start of the step is asked for in each of its
+     * stages: without motions all but the loads is computed once. */
     void
     evaluate_implicit(double *f, double time, const double *y);
 
@@ -173,6 +175,14 @@ namespace Supple
     void
     set_shift(const Vector &held_velocity);
 
+    /** f^I without the loads. */
+    void
+    evaluate_unloaded(double *f, double time, const double *y);
+
+    /** f += (0, f_d) */
+    void
+    add_dead_loads(double *f, double time);
+
     /** The operator at the configuration. */
     void
     assemble();
@@ -211,7 +221,7 @@ namespace Supple
     bool at_start  = false;           ///< of a step: the rotations are those of its unknowns
     Vector kept_force;                ///< K' (u + b v) [N]
     bool has_start = false;           ///< what follows
-    std::vector<double> start, rates; ///< the unknowns at the start of a step, and f^I there
+    std::vector<double> start, rates; ///< unknowns at the start of a step, f^I there without loads
 
     /** Of what the operator was assembled. */
     struct Origin
