@@ -2,7 +2,6 @@
 #include <supple/solvers/linear_solver.h>
 
 #include <Eigen/CholmodSupport>
-#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -28,50 +27,39 @@ namespace Supple
 
     using SparseMatrix = Eigen::SparseMatrix<double>;
 
-    void
-    adjust(Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper> &)
-    {
-    }
-
-    /** One ordering tried, the one that was best for meshes of tetrahedra. */
-    void
-    adjust(Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> &factorization)
-    {
-      limit_blas_threads();
-      factorization.cholmod().nmethods           = 1;
-      factorization.cholmod().method[0].ordering = CHOLMOD_AMD;
-      factorization.cholmod().postorder          = 1;
-      factorization.cholmod().print              = 0;
-    }
-
-
     /**
-     * A factorization on one process. The rows of A below the diagonal are, read by columns, the
-     * upper triangle that Eigen wants.
+     * CHOLMOD's factorization on one process. The rows of A below the diagonal are, read by columns,
+     * the upper triangle that Eigen wants.
      */
-    template <class Factorization>
-    class DirectSolver : public LinearSolver
+    class CholmodSolver : public LinearSolver
     {
     public:
-      DirectSolver(const ImplicitOperator &A,
-                   const SolverParameters &parameters,
-                   Effort &effort,
-                   const std::string &name)
+      CholmodSolver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort)
         : LinearSolver(A, parameters, effort)
-        , solver_name(name)
       {
         make_pattern();
-        adjust(factorization);
+        adjust();
         factorization.analyzePattern(whole_matrix());
       }
 
       std::string
       name() const override
       {
-        return solver_name;
+        return "cholmod";
       }
 
     private:
+      /** One ordering tried, the one that was best for meshes of tetrahedra. */
+      void
+      adjust()
+      {
+        limit_blas_threads();
+        factorization.cholmod().nmethods           = 1;
+        factorization.cholmod().method[0].ordering = CHOLMOD_AMD;
+        factorization.cholmod().postorder          = 1;
+        factorization.cholmod().print              = 0;
+      }
+
       /** Calls @p visit(row, column, value) for each entry of the upper triangle, column by column
        * from the top. Nothing is coupled to the z of a plane body. */
       template <class Visit>
@@ -157,7 +145,7 @@ namespace Supple
         factorization.factorize(whole_matrix());
         ++effort.factorizations;
         if (factorization.info() != Eigen::Success)
-          throw ComputationError("the matrix is not positive definite (" + solver_name + ")");
+          throw ComputationError("the matrix is not positive definite (cholmod)");
       }
 
       unsigned int
@@ -169,26 +157,16 @@ namespace Supple
         return 0;
       }
 
-      const std::string solver_name;
       SparseMatrix matrix_of_cells;
       SparseMatrix matrix; ///< with patches, if there are any
-      Factorization factorization;
+      Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> factorization;
     };
   } // namespace
 
 
   std::unique_ptr<LinearSolver>
-  make_ldlt_solver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort)
-  {
-    return std::make_unique<DirectSolver<Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper>>>(
-      A, parameters, effort, "ldlt");
-  }
-
-
-  std::unique_ptr<LinearSolver>
   make_cholmod_solver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort)
   {
-    return std::make_unique<DirectSolver<Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper>>>(
-      A, parameters, effort, "cholmod");
+    return std::make_unique<CholmodSolver>(A, parameters, effort);
   }
 } // namespace Supple
