@@ -36,7 +36,11 @@ namespace Supple
                         parameters.corotation,
                         !stationary,
                         effort)
-    , solver(LinearSolver::create(implicit_operator, parameters.solver, parameters.file, effort))
+    , solver(LinearSolver::create(implicit_operator,
+                                  parameters.solver,
+                                  parameters.time.matrix_use(),
+                                  parameters.file,
+                                  effort))
   {
     dealii::MultithreadInfo::set_thread_limit(body.n_threads); // deal.II's vectors have as many
     require_held_body();

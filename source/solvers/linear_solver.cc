@@ -13,31 +13,31 @@ namespace Supple
 
   namespace
   {
-    // Up to how many degrees of freedom a solver is the best one, measured on the bar
-    // (benchmarks/bar). An operator that never changes is factored once, so that the cost of a
-    // solution alone counts; but static scenes solve with it a few times, and the factor counts: of
-    // 42483 unknowns CHOLMOD takes 3.7 s, multigrid 0.17 s in all.
-    struct Limits
-    {
-      unsigned int ldlt, cholmod;
-    };
-    constexpr Limits changing_operator = {600, 600};
-    constexpr Limits constant_operator = {1500, 150000};
+    // Up to how many unknowns a factorization is quicker than multigrid, measured on the bar
+    // (doc/performance.md). What counts is for how many solutions one factor serves.
+    constexpr unsigned int limit_of_one_system    = 1000;
+    constexpr unsigned int limit_of_some_systems  = 1500;
+    constexpr unsigned int limit_of_many_systems  = 8000;
+    constexpr unsigned int limit_of_constant      = 25000;
 
-    // In the plane factors stay thin: CHOLMOD takes 1.3 s at 161202 unknowns, ML 4.1 s
-    // (parameters/skin/needle-plane.prm, finer).
-    constexpr Limits changing_operator_in_plane = {5000, 300000};
-    constexpr Limits constant_operator_in_plane = {1500, 300000};
+    // In the plane factors stay thin: of 151762 unknowns one takes 0.5 s.
+    constexpr unsigned int limit_in_plane = 300000;
 
     // Beyond, CHOLMOD would take gigabytes as a stand-in.
     constexpr unsigned int largest_stand_in_factor = 300000;
 
-    Limits
-    limits_of(const bool plane, const bool constant)
+    unsigned int
+    limit_of(const MatrixUse use)
     {
-      if (plane)
-        return constant ? constant_operator_in_plane : changing_operator_in_plane;
-      return constant ? constant_operator : changing_operator;
+      switch (use)
+        {
+          case MatrixUse::one_system:
+            return limit_of_one_system;
+          case MatrixUse::some_systems:
+            return limit_of_some_systems;
+          default:
+            return limit_of_many_systems;
+        }
     }
 
     /** Our multigrid knows the six rigid motions of a body in space alone. */
@@ -55,7 +55,7 @@ namespace Supple
     }
 
     Method
-    choose(const ImplicitOperator &A, std::string &reason)
+    choose(const ImplicitOperator &A, const MatrixUse use, std::string &reason)
     {
       const unsigned int n_ranks =
         dealii::Utilities::MPI::n_mpi_processes(A.body.mesh.communicator);
@@ -66,30 +66,19 @@ namespace Supple
                    (ml_fails ? ", some of which own no vertex" : "");
           return ml_fails ? Method::cg_jacobi : multigrid(A);
         }
-      const bool constant =
-        !A.forces.change_operator() && (A.has_mass() || !A.forces.loads_follow());
-      const bool plane          = A.body.mesh.section.plane();
-      const bool once           = constant && !A.has_mass() && !plane;
-      const Limits limits       = limits_of(plane, constant && !once);
+      const bool constant       = !A.forces.change_operator() && A.has_mass();
       const unsigned int n_dofs = A.body.n_dofs();
-      const auto explain        = [&](const std::string &comparison, const unsigned int limit) {
-        reason = std::to_string(n_dofs) + " unknowns, " + comparison + " " + std::to_string(limit) +
-                 (once       ? ", the operator is used a few times"
-                         : constant ? ", the operator never changes"
-                                    : ", the operator changes");
-      };
-      if (n_dofs <= limits.ldlt)
-        {
-          explain("at most", limits.ldlt);
-          return Method::ldlt;
-        }
-      if (n_dofs <= limits.cholmod)
-        {
-          explain("at most", limits.cholmod);
-          return Method::cholmod;
-        }
-      explain("more than", limits.cholmod);
-      return multigrid(A);
+      const unsigned int limit  = A.body.mesh.section.plane() ? limit_in_plane
+                                  : constant                  ? limit_of_constant
+                                                              : limit_of(use);
+      reason = std::to_string(n_dofs) + " unknowns, " +
+               (n_dofs <= limit ? "at most " : "more than ") + std::to_string(limit) +
+               (A.body.mesh.section.plane()        ? ", in the plane"
+                : constant                         ? ", the operator never changes"
+                : use == MatrixUse::one_system     ? ", a matrix for each solution"
+                : use == MatrixUse::some_systems   ? ", some solutions with each matrix"
+                                                   : ", many solutions with each matrix");
+      return n_dofs <= limit ? Method::ldlt : multigrid(A);
     }
 
     using Maker = std::unique_ptr<LinearSolver> (*)(const ImplicitOperator &,
@@ -155,13 +144,14 @@ namespace Supple
   std::unique_ptr<LinearSolver>
   LinearSolver::create(const ImplicitOperator &A,
                        const SolverParameters &parameters,
+                       const MatrixUse use,
                        const ParameterFile &scene,
                        Effort &effort)
   {
     std::string reason = "asked for";
     Method method      = parameters.method;
     if (method == Method::automatic)
-      method = choose(A, reason);
+      method = choose(A, use, reason);
 
     const bool direct = method == Method::ldlt || method == Method::cholmod;
     if (direct && dealii::Utilities::MPI::n_mpi_processes(A.body.mesh.communicator) > 1)

@@ -21,10 +21,10 @@ namespace Supple
        {"cg-amg", SolverMethod::cg_amg},
        {"cg-ml", SolverMethod::cg_ml},
        {"cg-jacobi", SolverMethod::cg_jacobi}},
-      "Linear solver: Eigen's simplicial LDL^T (small bodies), CHOLMOD's supernodal Cholesky "
-      "(middle), "
+      "Linear solver: LDL^T by 3x3 blocks (small or plane bodies), CHOLMOD's supernodal Cholesky, "
       "conjugate gradients with our own algebraic multigrid (large, or several processes), with "
-      "Trilinos ML or with the inverted diagonal blocks. auto chooses by size.");
+      "Trilinos ML or with the inverted diagonal blocks. auto chooses by size and by how many "
+      "systems have the same matrix.");
     add(
       prm,
       "Tolerance",

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 namespace Supple
@@ -37,6 +38,11 @@ namespace Supple
      * take milliseconds it is their set-up that counts. */
     constexpr double longest_search = 8., shortest_search = 3.;
 
+    /** What the error in time may have of an aim that is about the mesh too: short steps are cheaper
+     * than small cells. With the orders q of the method and p of the cells it would be
+     * (1/q) / (1/q + 3/p). */
+    constexpr double share_of_time = 0.15;
+
     constexpr double nothing  = std::numeric_limits<double>::quiet_NaN();
     constexpr double infinity = std::numeric_limits<double>::infinity();
   } // namespace
@@ -51,7 +57,8 @@ namespace Supple
     , plan(parameters)
     , quantities(parameters, plan)
     , runner(quantities.needed(), communicator)
-    , aim(parameters.relative_aim())
+    , whole_aim(parameters.relative_aim())
+    , aim(plan.aims_at_mesh ? share_of_time * whole_aim : whole_aim)
     , best_seconds(infinity)
     , list(candidates())
   {
@@ -67,6 +74,8 @@ namespace Supple
   std::vector<AimSearch::Candidate>
   AimSearch::candidates() const
   {
+    if (is_stationary())
+      return {};
     std::vector<StudyItem> methods = plan.methods;
     if (methods.empty())
       for (const std::string &name : all_methods)
@@ -116,7 +125,7 @@ namespace Supple
     const long n     = std::max(1l, std::lround(std::ceil(end / x * (1. - 1e-9))));
     return plan.method_run(candidate.method,
                            "step",
-                           digits(end, all_digits) + "/" + std::to_string(n),
+                           digits(end, 10) + "/" + std::to_string(n),
                            place);
   }
 
@@ -124,12 +133,22 @@ namespace Supple
   void
   AimSearch::check() const
   {
-    output.say("Aim " + percent(aim) + " of scene " + plan.base.scene_name + ": " +
-               std::to_string(list.size()) + " methods, and a reference");
+    output.say("Aim " + percent(whole_aim) + " of scene " + plan.base.scene_name +
+               (is_stationary() ? ": finer meshes, in space alone"
+                                : ": " + std::to_string(list.size()) +
+                                    " methods, and a reference" +
+                                    (plan.aims_at_mesh ? ", and finer meshes" : "")));
     runner.check(plan.base);
     for (const Candidate &candidate : list)
       output.say("  " + candidate.method.title +
                  (candidate.variable_steps ? ", variable steps" : ", fixed steps"));
+  }
+
+
+  bool
+  AimSearch::is_stationary() const
+  {
+    return plan.base.time.problem == TimeParameters::Problem::stationary;
   }
 
 
@@ -138,16 +157,49 @@ namespace Supple
   {
     const InterruptGuard interrupt;
     runner.check(plan.base); // what is refused leaves an earlier study as it is
-    output.open(study_files(),
-                [this] { write_whole_file(output.folder + "/study.csv", table.csv()); });
+    std::vector<std::string> earlier = study_files();
+    for (const std::string &name : study_files())
+      earlier.push_back("meshes/" + name);
+    output.open(earlier, [this] {
+      write_whole_file(output.folder + "/study.csv", table.csv());
+      if (plan.aims_at_mesh)
+        std::filesystem::create_directories(output.folder + "/meshes");
+    });
     output.say("Supple " SUPPLE_VERSION ", the soonest run of " + plan.base.scene_name +
-               " with an error of " + percent(aim));
+               " with an error of " + percent(whole_aim));
+    std::vector<std::string> sentences;
+    if (!is_stationary())
+      {
+        search_in_time(interrupt);
+        sentences = result(*winner());
+      }
+    if (plan.aims_at_mesh)
+      for (const std::string &sentence : search_mesh())
+        sentences.push_back(sentence);
+    sentences.push_back("The search took " + readable_duration(stopwatch.seconds()) +
+                        (reference_seconds > 0.
+                           ? ", of which the reference " + readable_duration(reference_seconds)
+                           : std::string()) +
+                        ".");
+    table.facts.insert(table.facts.end(), sentences.begin(), sentences.end());
+    write();
+    for (const std::string &sentence : sentences)
+      output.say(sentence);
+  }
+
+
+  void
+  AimSearch::search_in_time(const InterruptGuard &interrupt)
+  {
     find_reference();
-    const double reference_end = stopwatch.seconds();
+    reference_seconds          = stopwatch.seconds();
+    const auto budget_is_spent = [this] {
+      return stopwatch.seconds() - reference_seconds >
+             std::max(shortest_search, longest_search * best_seconds);
+    };
     for (Candidate &candidate : list)
       {
-        if (stopwatch.seconds() - reference_end >
-            std::max(shortest_search, longest_search * best_seconds))
+        if (budget_is_spent())
           {
             table.facts.push_back(
               "Not tried, for the search had taken " + digits(longest_search, 2) +
@@ -160,20 +212,53 @@ namespace Supple
           throw InterruptedError("Interrupted; the runs so far are in " + output.folder +
                                  "/study.csv.");
       }
-    const Candidate *const best = winner();
-    if (!best)
+    if (!winner())
       {
         write();
-        throw ComputationError("No run meets the aim of " + percent(aim) +
+        throw ComputationError("No run meets the aim of " + percent(aim) + in_time() +
                                ". What was tried is in " + output.folder + "/study.md.");
       }
-    std::vector<std::string> sentences = result(*best);
-    sentences.push_back("The search took " + readable_duration(stopwatch.seconds()) +
-                        ", of which the reference " + readable_duration(reference_end) + ".");
-    table.facts.insert(table.facts.end(), sentences.begin(), sentences.end());
-    write();
-    for (const std::string &sentence : sentences)
-      output.say(sentence);
+  }
+
+
+  std::string
+  AimSearch::in_time() const
+  {
+    return plan.aims_at_mesh ? " in time" : "";
+  }
+
+
+  std::vector<MeshSearch::InTime>
+  AimSearch::good_in_time() const
+  {
+    if (is_stationary())
+      return {{"", {}}};
+    std::vector<const Candidate *> good;
+    for (const Candidate &candidate : list)
+      if (best_trial(candidate))
+        good.push_back(&candidate);
+    std::sort(good.begin(), good.end(), [this](const Candidate *one, const Candidate *other) {
+      return best_trial(*one)->seconds < best_trial(*other)->seconds;
+    });
+    std::vector<MeshSearch::InTime> methods;
+    for (const Candidate *candidate : good)
+      methods.push_back({best_row(*candidate).run.label(), best_row(*candidate).run.overrides});
+    return methods;
+  }
+
+
+  std::vector<std::string>
+  AimSearch::search_mesh()
+  {
+    const double in_time = is_stationary() ? 0. : best_trial(*winner())->error + reference_error;
+    MeshSearch search(plan, quantities, runner, output, good_in_time());
+    const auto mesh = search.search(whole_aim - in_time, in_time);
+    if (output.root)
+      write_study(output.folder + "/meshes", search.table());
+    if (!mesh)
+      throw ComputationError("No mesh meets the aim of " + percent(whole_aim) +
+                             ". What was tried is in " + output.folder + "/meshes/study.md.");
+    return result(*mesh);
   }
 
 
@@ -201,7 +286,6 @@ namespace Supple
         const StudyRecord record = runner.record(plan.parameters(run), "");
         if (record.status != StudyRecord::Status::done)
           throw ComputationError("The reference (" + run.label() + ") failed: " + record.reason);
-        reference_seconds += record.seconds;
         if (coarse)
           distance = error_of(*coarse, record);
         output.say("  reference: " + run.label() + ", " + digits(record.seconds, 3) + " s" +
@@ -320,47 +404,87 @@ namespace Supple
   }
 
 
+  const AimCurve::Trial *
+  AimSearch::best_trial(const Candidate &candidate) const
+  {
+    return candidate.curve.best(aim - reference_error);
+  }
+
+
   const AimSearch::Candidate *
   AimSearch::winner() const
   {
     const Candidate *best = nullptr;
-    const auto seconds    = [&](const Candidate &candidate) {
-      return candidate.curve.best(aim - reference_error)->seconds;
-    };
     for (const Candidate &candidate : list)
-      if (candidate.curve.best(aim - reference_error) &&
-          (!best || seconds(candidate) < seconds(*best)))
+      if (best_trial(candidate) &&
+          (!best || best_trial(candidate)->seconds < best_trial(*best)->seconds))
         best = &candidate;
     return best;
+  }
+
+
+  const StudyRow &
+  AimSearch::best_row(const Candidate &candidate) const
+  {
+    const std::size_t number = best_trial(candidate) - candidate.curve.all().data();
+    return table.rows[candidate.rows[number]];
+  }
+
+
+  std::string
+  AimSearch::entries_of(const PlannedRun &run) const
+  {
+    std::string entries;
+    for (const Override &override : run.overrides)
+      entries +=
+        (entries.empty() ? "" : " | ") +
+        (override.entry() == "Time/Relative tolerance" && run.tolerance > 0.
+           ? override.entry() + "=" + digits(run.tolerance, 3)
+           : override.text);
+    return "Entries for the scene: " + entries;
   }
 
 
   std::vector<std::string>
   AimSearch::result(const Candidate &best) const
   {
-    const AimCurve::Trial &trial = *best.curve.best(aim - reference_error);
-    const std::size_t number     = &trial - best.curve.all().data();
-    const StudyRow &row          = table.rows[best.rows[number]];
+    const AimCurve::Trial &trial = *best_trial(best);
+    const StudyRow &row          = best_row(best);
     std::vector<std::string> sentences;
-    sentences.push_back(percent(aim) + " soonest: " + row.run.label() + ", " +
+    sentences.push_back(percent(aim) + in_time() + " soonest: " + row.run.label() + ", " +
                         digits(trial.seconds, 3) + " s, " + std::to_string(row.steps) + " steps.");
     sentences.push_back("Error in time " + percent(trial.error) + ", known to within " +
                         percent(reference_error) + " (of " + quantities.error_meaning() + ").");
-    const std::string &space = space_errors[best.rows[number]];
+    if (plan.aims_at_mesh)
+      return sentences;
+    const std::string &space = space_errors[&row - table.rows.data()];
     sentences.push_back(space.empty()
                           ? "The error in space is not part of the aim, and is not "
                             "known here (Space/Estimate error)."
-                          : "The error in space is not part of the aim: " + space + ".");
+                          : "The error in space is not part of the aim (Study/Aim with mesh): " +
+                              space + ".");
     sentences.push_back("Half the error takes about " + digits(best.curve.price_of_half(), 3) +
                         " times as long.");
-    std::string entries;
-    for (const Override &override : row.run.overrides)
-      entries +=
-        (entries.empty() ? "" : " | ") + (override.entry() == "Time/Relative tolerance"
-                                            ? override.entry() + "=" + digits(row.run.tolerance, 3)
-                                            : override.text);
-    sentences.push_back("Entries for the scene: " + entries);
+    sentences.push_back(entries_of(row.run));
     return sentences;
+  }
+
+
+  std::vector<std::string>
+  AimSearch::result(const MeshSearch::Found &mesh) const
+  {
+    const double dimension = plan.base.mesh.shape == MeshParameters::Shape::rectangle ? 2. : 3.;
+    const double price     = std::pow(2., dimension / mesh.order) *
+                         (is_stationary() ? 1. : winner()->curve.price_of_half());
+    return {percent(whole_aim) + (is_stationary() ? "" : " in space and time") + " soonest: " +
+              mesh.run.label() + ", " + std::to_string(mesh.n_cells) + " cells, " +
+              digits(mesh.seconds, 3) + " s.",
+            "Error in space " + percent(mesh.error) + ", which falls with the power " +
+              digits(mesh.order, 2) + " of the size of the cells" +
+              (mesh.order_is_known ? ", as three meshes tell."
+                                   : " at least; two meshes do not tell the order."),
+            "Half the error takes about " + digits(price, 3) + " times as long.",
+            entries_of(mesh.run)};
   }
 
 

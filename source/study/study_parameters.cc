@@ -191,6 +191,13 @@ namespace Supple
                       "energy, a column of history.csv or probes.csv, such as tip.uz or clamp.fz; "
                       "or several of them, set apart by commas, of which the worst one counts.",
                       any);
+    prm.add_parameter("Aim with mesh",
+                      aim_with_mesh,
+                      "Whether the error in space is part of the Aim: then finer meshes, with "
+                      "linear and with quadratic cells, are tried too. The error is told of points "
+                      "that the scene follows, or of columns. In static scenes, which have no "
+                      "error in time, it always is. Unit: none. Range: true or false.",
+                      Range::one_of("true|false"));
   }
 
 
@@ -278,8 +285,9 @@ namespace Supple
         check_aim();
         return;
       }
-    if (!aim_of.empty())
-      throw InputError(place("Aim of") + ": without an Aim it says nothing.");
+    if (!aim_of.empty() || aim_with_mesh)
+      throw InputError(place(aim_with_mesh ? "Aim with mesh" : "Aim of") +
+                       ": without an Aim it says nothing.");
     const bool both   = !methods.empty() && !levels.empty();
     const int n_kinds = (!methods.empty() || !levels.empty()) + !cases.empty();
     if (n_kinds != 1)

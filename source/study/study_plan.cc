@@ -3,6 +3,7 @@
 #include <supple/base/error.h>
 #include <supple/base/expression.h>
 #include <supple/base/text.h>
+#include <supple/mesh/finer_mesh.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -60,8 +61,11 @@ namespace Supple
   std::string
   PlannedRun::label() const
   {
-    const std::string what = level.empty() ? series : level + ", " + series;
-    return what.empty() ? name : what + ", " + name;
+    std::string text;
+    for (const std::string &part : {level, series, name})
+      if (!part.empty())
+        text += (text.empty() ? "" : ", ") + part;
+    return text;
   }
 
 
@@ -247,12 +251,17 @@ namespace Supple
   void
   StudyPlan::plan_aim(const StudyParameters &study)
   {
-    if (base.time.problem == TimeParameters::Problem::stationary)
-      throw InputError(study.place("Aim") + " = " + study.aim + ": the scene is static (" +
-                       base.origin("Time/Problem") +
-                       ") and has no error in time. Space/Aim refines its mesh.");
+    const bool stationary = base.time.problem == TimeParameters::Problem::stationary;
+    aims_at_mesh          = stationary || study.aim_with_mesh;
+    if (aims_at_mesh && (!can_be_cut(base.mesh, 2) || base.space.aim > 0.))
+      throw InputError(study.place(stationary ? "Aim" : "Aim with mesh") +
+                       ": it takes the scene's mesh with all edges cut in two, three and more. "
+                       "Leave out Mesh/Refine, Mesh/Refine region and Space/Aim.");
     if (study.methods.empty())
       return;
+    if (stationary)
+      throw InputError(study.place("Methods") + ": the scene is static (" +
+                       base.origin("Time/Problem") + ") and has no methods in time.");
     methods = study_items(study.methods, study.place("Methods"));
     for (const StudyItem &item : methods)
       {

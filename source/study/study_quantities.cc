@@ -130,15 +130,16 @@ namespace Supple
     std::string all = study.quantities;
     if (!study.aim.empty())
       all = !study.aim_of.empty() ? study.aim_of
+            : plan.aims_at_mesh   ? "probes"
             : points.empty()      ? "final field"
                                   : "probes, final field";
     for (const std::string &name : dealii::Utilities::split_string_list(all, ','))
       {
         if (name == "probes" && points.empty())
           throw InputError(plan.changed_by_hand({"Probes/Points"}) + place +
-                           ": the scene follows no point (Probes/Points); take 'final "
-                           "field' or energy.");
-        if (name == "final field" && !plan.level_references.empty())
+                           ": the scene follows no point (Probes/Points); take " +
+                           (plan.aims_at_mesh ? "a column." : "'final field' or energy."));
+        if (name == "final field" && (plan.aims_at_mesh || !plan.level_references.empty()))
           throw InputError(place +
                            ": on another mesh there are other vertices than those of the "
                            "final field; take probes, energy or a column.");

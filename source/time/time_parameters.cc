@@ -81,6 +81,16 @@ namespace Supple
   }
 
 
+  MatrixUse
+  TimeParameters::matrix_use() const
+  {
+    if (problem == Problem::dynamic && is_semi_implicit())
+      return MatrixUse::many_systems;
+    const bool one = problem == Problem::dynamic && method == TimeMethod::backward_euler;
+    return one ? MatrixUse::one_system : MatrixUse::some_systems;
+  }
+
+
   unsigned int
   TimeParameters::order() const
   {

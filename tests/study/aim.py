@@ -64,6 +64,32 @@ runner.check(status == 0 and "2 % soonest: imex4" in output, f"{status} {output}
 status, output, error = runner.run("--check", study)
 runner.check(status == 0 and "imex4, fixed steps" in output, f"{status} {output} {error}")
 
+# With the mesh: of a static scene, whose tip goes to -0.20637 m on a very fine mesh, and of one in motion.
+def of_mesh(name, scene, aim, *settings):
+    status, output, error = runner.run(scene, "--aim", aim, *settings, "--output", folder / name)
+    runner.check(status == 0, f"{name}: exit status {status}: {error}")
+    told = float(re.search(r"Error in space ([0-9.e-]+) %", output)[1])
+    entries = re.search(r"Entries for the scene: (.*)", output)[1]
+    with open(folder / name / "meshes" / "study.csv") as file:
+        rows = list(csv.DictReader(file))
+    runner.check({row["level"][:6] for row in rows} == {"linear", "quadra"}, f"{name}: {rows}")
+    return dict(text.split("=", 1) for text in entries.split(" | ")), told
+
+
+entries, told = of_mesh("mesh", runner.STATIC, "5 %")
+true = 100 * abs(runner.simulate(runner.STATIC, entries).probes()[-1]["n28.uz"] / -0.20637 - 1)
+print(f"static: {entries}, told {told} %, true {true:.2f} %")
+runner.check(told <= 5 and true <= 5, f"static: told {told} %, true {true} %")
+CALM = ["--set", "Study/Aim with mesh=true", "--set", "Time/Steps=10", "--set", "Corotation/Rotation=none", "--set", "Start/Velocity=0; 0; 0"]
+entries, told = of_mesh("mesh in motion", runner.BAR, "30 %", "--set", "Study/Methods=trbdf2; esdirk4", *CALM)
+runner.check(entries["Time/Method"] in ("trbdf2", "esdirk4") and "Mesh/Order" in entries and told < 30, f"in motion: {entries}, told {told} %")
+fine = {**SWING, "Time/Steps": 10, "Corotation/Rotation": "none", "Start/Velocity": "0; 0; 0", "Material/Mass": "consistent"}
+run = runner.simulate(runner.BAR, {**fine, **entries}).probes()
+right = runner.simulate(runner.BAR, {**fine, "Mesh/Order": 2, "Mesh/Box cubes": "4, 16, 4", "Time/Method": "esdirk4", "Time/Steps": 40, "Time/Step": 0.07 / 4}).probes()
+true = 100 * abs(run[-1]["n28.uz"] - right[-1]["n28.uz"]) / max(abs(row["n28.uz"]) for row in right)
+print(f"in motion: {entries}, told {told} %, at the end {true:.2f} %")
+runner.check(true <= 30, f"in motion: {true} %")
+
 # What is no aim, or none of a run in motion.
 for words, arguments in [
         (["percentage", "0.01"], [runner.BAR, "--aim", "0.01"]),
@@ -72,7 +98,11 @@ for words, arguments in [
         (["--aim", "must follow"], [runner.BAR, "--aim"]),
         (["n29.uz", "n28.uz"], [runner.BAR, "--aim", "1 %", "--set", "Study/Aim of=n29.uz"]),
         (["Aim of", "without an Aim"], [study, "--set", "Study/Aim=", "--set", "Study/Aim of=n28.uz"]),
-        (["static", "Space/Aim"], [runner.STATIC, "--aim", "1 %"]),
+        (["static", "no methods"], [runner.STATIC, "--aim", "1 %", "--set", "Study/Methods=imex4"]),
+        (["Mesh/Refine", "Space/Aim"], [runner.STATIC, "--aim", "1 %", "--set", "Space/Aim=0.01"]),
+        (["follows no point"], [runner.STATIC, "--aim", "1 %", "--set", "Probes/Points="]),
+        (["another mesh"], [runner.BAR, "--aim", "1 %", "--set", "Study/Aim with mesh=true", "--set", "Study/Aim of=final field"]),
+        (["without an Aim"], [study, "--set", "Study/Aim=", "--set", "Study/Aim with mesh=true"]),
         (["steps 0.1", "methods alone"], [study, "--set", "Study/Methods=imex4: steps 0.1"]),
         (["Reference", "Aim"], [study, "--set", "Study/Reference=esdirk5: step 0.01"]),
         (["Method"], [study, "--set", "Study/Methods=imex9"])]:

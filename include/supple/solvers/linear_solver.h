@@ -2,6 +2,7 @@
 #define supple_linear_solver_h
 
 #include <supple/solvers/implicit_operator.h>
+#include <supple/solvers/matrix_use.h>
 #include <supple/solvers/solver_parameters.h>
 
 #include <memory>
@@ -20,12 +21,13 @@ namespace Supple
   public:
     virtual ~LinearSolver() = default;
 
-    /** The solver a scene asks for; `auto` chooses by size and number of processes.
+    /** The solver a scene asks for; `auto` chooses by size, use and number of processes.
      * @throws InputError for a solver that works on one process, on several; @p scene knows where
      * the entries were set */
     static std::unique_ptr<LinearSolver>
     create(const ImplicitOperator &A,
            const SolverParameters &parameters,
+           MatrixUse use,
            const ParameterFile &scene,
            Effort &effort);
 
@@ -137,11 +139,11 @@ namespace Supple
   };
 
 
-  /** Eigen's SimplicialLDLT: one process, small bodies. */
+  /** BlockFactorization: one process, bodies that are small, or plane. */
   std::unique_ptr<LinearSolver>
   make_ldlt_solver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort);
 
-  /** CHOLMOD's supernodal Cholesky factorization: one process, bodies of middle size. */
+  /** CHOLMOD's supernodal Cholesky factorization: one process, where factors are large. */
   std::unique_ptr<LinearSolver>
   make_cholmod_solver(const ImplicitOperator &A,
                       const SolverParameters &parameters,

@@ -1,9 +1,11 @@
 #ifndef supple_aim_search_h
 #define supple_aim_search_h
 
+#include <supple/base/interrupt.h>
 #include <supple/base/stopwatch.h>
 #include <supple/base/task_output.h>
 #include <supple/study/aim_curve.h>
+#include <supple/study/mesh_search.h>
 #include <supple/study/study_parameters.h>
 #include <supple/study/study_plan.h>
 #include <supple/study/study_quantities.h>
@@ -18,7 +20,10 @@
 namespace Supple
 {
   /**
-   * The soonest run of a scene whose error in time is below an aim: method, and step or tolerance.
+   * The soonest run of a scene whose error is below an aim. The error is that in time, and what is
+   * looked for are method, and step or tolerance; if the aim is about the mesh too, the error in
+   * time may have a part of it, and MeshSearch looks for a mesh with the rest. Static scenes have a
+   * mesh alone.
    *
    * First a reference is made so good that two runs of it, one with a tenth of the tolerance of the
    * other, are apart by half the aim at most. Then each method is tried with the step or tolerance
@@ -47,6 +52,19 @@ namespace Supple
     run();
 
   private:
+    /** Finds the soonest run in time. */
+    void
+    search_in_time(const InterruptGuard &interrupt);
+
+    /** Finds the soonest mesh for the runs that are good enough in time. @return what was found, in
+     * sentences @throws ComputationError if nothing meets the aim */
+    std::vector<std::string>
+    search_mesh();
+
+    /** The runs that are good enough in time, the soonest first. */
+    std::vector<MeshSearch::InTime>
+    good_in_time() const;
+
     /** A method that may win. */
     struct Candidate
     {
@@ -56,6 +74,13 @@ namespace Supple
       AimCurve curve;
       std::vector<std::size_t> rows; ///< of the table, one for each run of the curve
     };
+
+    bool
+    is_stationary() const;
+
+    /** " in time" where the aim is about more than that. */
+    std::string
+    in_time() const;
 
     std::vector<Candidate>
     candidates() const;
@@ -98,6 +123,22 @@ namespace Supple
     std::vector<std::string>
     result(const Candidate &best) const;
 
+    /** The same of a mesh. */
+    std::vector<std::string>
+    result(const MeshSearch::Found &mesh) const;
+
+    /** "Entries for the scene: ..." */
+    std::string
+    entries_of(const PlannedRun &run) const;
+
+    /** The soonest run of a candidate that meets the aim, or null. */
+    const AimCurve::Trial *
+    best_trial(const Candidate &candidate) const;
+
+    /** The same in the table. */
+    const StudyRow &
+    best_row(const Candidate &candidate) const;
+
     void
     write() const;
 
@@ -106,10 +147,11 @@ namespace Supple
     const StudyPlan plan;
     const StudyQuantities quantities;
     const StudyRunner runner;
-    const double aim; ///< relative
+    const double whole_aim; ///< relative
+    const double aim;       ///< of it in time
     std::optional<StudyRecord> reference;
     double reference_error   = 0.; ///< relative
-    double reference_seconds = 0.;
+    double reference_seconds = 0.; ///< until the reference was there
     double best_seconds; ///< of a run that meets the aim, so far
     std::vector<Candidate> list;
     std::vector<std::string> space_errors; ///< of each row, in words

@@ -21,6 +21,7 @@ namespace Supple
 
     std::string aim; ///< as written; then one run is looked for, and nothing is compared
     std::string aim_of;
+    bool aim_with_mesh = false; ///< the error in space is part of the aim
     std::string variants;
     std::string reference;
     std::string exact;

@@ -62,6 +62,9 @@ namespace Supple
     /** Of a study with an aim: those that may be tried; none: all. */
     std::vector<StudyItem> methods;
 
+    /** Whether an aim is about the error in space too. */
+    bool aims_at_mesh = false;
+
     /** From coarse to fine: the last one counts, the first one tells how good that is. */
     std::vector<PlannedRun> references;
 

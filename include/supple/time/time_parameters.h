@@ -3,6 +3,7 @@
 
 #include <supple/input/parameter_file.h>
 #include <supple/mechanics/tangent.h>
+#include <supple/solvers/matrix_use.h>
 
 #include <string>
 #include <vector>
@@ -86,6 +87,10 @@ namespace Supple
     /** Whether it splits the elastic force: each stage is one linear system. */
     bool
     is_semi_implicit() const;
+
+    /** How many linear systems have the same matrix, if it changes. */
+    MatrixUse
+    matrix_use() const;
 
     /** With which power of the step the error falls; of ida its maximum order. */
     unsigned int
