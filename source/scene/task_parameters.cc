@@ -119,7 +119,8 @@ namespace Supple
   std::string
   TaskParameters::place(const std::string &entry) const
   {
-    return file.place(subsection + "/" + entry) + ": " + subsection + "/" + entry;
+    const std::string where = file.place(subsection + "/" + entry);
+    return (where.empty() ? "" : where + ": ") + subsection + "/" + entry;
   }
 
 

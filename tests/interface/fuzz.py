@@ -117,7 +117,7 @@ class Checker:
 
     def by_driver(self, scene):
         if not self.server:
-            self.server = command_driver.CommandDriver(self.driver, self.folder, self.seconds, prepare=self.limit_memory)
+            self.server = command_driver.CommandDriver(self.driver, self.folder, runner.ENVIRONMENT, self.seconds, prepare=self.limit_memory)
         _, status, _, error = self.server.run(scene.parent, ["--check", scene.name])
         return status, error
 

@@ -148,7 +148,7 @@ class Program:
     def __init__(self, folder, temporary, driver):
         self.folder = folder
         self.environment = dict(runner.ENVIRONMENT, TMPDIR=str(temporary))
-        self.driver = driver and command_driver.CommandDriver(driver, temporary.parent, SECONDS, SECONDS_TO_STOP, {"TMPDIR": str(temporary)})
+        self.driver = driver and command_driver.CommandDriver(driver, temporary.parent, self.environment, SECONDS, SECONDS_TO_STOP)
 
     @staticmethod
     def limit():

@@ -5,8 +5,6 @@ import os
 import pathlib
 import subprocess
 
-import runner
-
 
 def parser():
     """What the scripts that try many inputs take from the command line."""
@@ -24,9 +22,9 @@ def parser():
 class CommandDriver:
     """seconds: how long each command may compute; more: how long after that until it is killed."""
 
-    def __init__(self, program, folder, seconds, more=0, environment=(), prepare=None):
+    def __init__(self, program, folder, environment, seconds, more=0, prepare=None):
         self.output, self.error = folder / "stdout", folder / "stderr"
-        self.server = subprocess.Popen([program, str(int(seconds)), str(int(more))], env=dict(runner.ENVIRONMENT, **dict(environment)),
+        self.server = subprocess.Popen([program, str(int(seconds)), str(int(more))], env=environment,
                                        stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, preexec_fn=prepare)
 
     def run(self, folder, arguments):
