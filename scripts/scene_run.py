@@ -4,6 +4,8 @@ import csv
 import json
 import subprocess
 
+MODELS = {"linear": "none", "corotational": "polar"}    # Corotation/Rotation of each
+
 
 def run(supple, scene, folder, settings):
     """@return (summary, {column: number in the last row of probes.csv}), of a run without frames and report. @raise RuntimeError

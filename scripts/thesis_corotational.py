@@ -166,7 +166,7 @@ def main():
         for scene, summary, ratio in zip(scenes, summaries, draw_volumes(body, folders)):
             step = int(ratio.max(axis=1).argmax())
             table.append(f"| {scene} | {summary['cells']} | {ratio.min():.3f} | {ratio.max():.3f} at {step} | "
-                         f"{summary['seconds']['run']:.2g} | {errors.in_time(summary)} | {errors.in_space(summary, False)} |")
+                         f"{summary['seconds']['run']:.2g} | {errors.in_time(summary)} | {errors.in_space(summary)} |")
         draw_bodies(body, folders, iterations or [turning_points(folder) for folder in folders])
     print("\n| scene | cells | smallest volume ratio | largest, at iteration | seconds | error in time | in space |\n" + "|---" * 7 + "|")
     print("\n".join(table), flush=True)
