@@ -8,7 +8,6 @@ skin-surfaces.png, skin-models.png and skin-errors.png. Runs are left in output/
 import argparse
 import csv
 import pathlib
-import subprocess
 import sys
 
 import matplotlib
@@ -402,12 +401,6 @@ def draw_models(supple, measured):
     volumes.save(figure, PICTURES / "skin-models.png")
 
 
-def errors_of_table(supple, table):
-    folder = OUTPUT / f"table-{table}"
-    subprocess.run([supple, str(SKIN / f"tables-{table}.prm"), "--quiet", "--output", str(folder)], check=True)
-    return scene_run.rows(folder / "identification.csv")
-
-
 def draw_grid(panel, rows, number, n_rows):
     """Errors over the elasticity ratio, a line for each thickness."""
     thicknesses = sorted({row["thickness"] for row in rows})
@@ -433,7 +426,7 @@ def draw_errors(supple):
     """Figures 3.19, 3.20, 3.22, 3.24, 3.25 and 3.26: the errors of the thesis's grids, by its recipe."""
     figure, axes = matplotlib.pyplot.subplots(3, 4, figsize=(15, 10))
     for column, (table, (name, n_rows)) in enumerate(TABLES.items()):
-        rows = errors_of_table(supple, table)
+        rows = scene_run.identify(supple, SKIN / f"tables-{table}.prm", OUTPUT / f"table-{table}")
         for panel, number in zip(axes[:, column], (1, 2)):
             draw_grid(panel, rows, number, n_rows)
             panel.set_title(f"{name} (table {table}), set {number}", fontsize=10)
