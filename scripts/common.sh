@@ -49,6 +49,10 @@ build() {
 # find_supple: sets supple to the executable: $SUPPLE if that is set, else one that it builds.
 find_supple() {
   if [ -n "${SUPPLE:-}" ]; then
+    if [ ! -f "$SUPPLE" ] || [ ! -x "$SUPPLE" ]; then
+      echo "SUPPLE=$SUPPLE is not a program." >&2
+      exit 1
+    fi
     supple=$(realpath "$SUPPLE")
   else
     install_missing run

@@ -5,9 +5,10 @@
 
 import csv
 import pathlib
-import subprocess
 import sys
 import tempfile
+
+import scene_run
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SCENES = {"3.3": ("tables-3.3.prm", 6), "3.4": ("tables-3.4.prm", 6), "3.5": ("tables-3.4.prm", 6),
@@ -17,9 +18,7 @@ SCENES = {"3.3": ("tables-3.3.prm", 6), "3.4": ("tables-3.4.prm", 6), "3.5": ("t
 def compute(supple, scene):
     """Rows of identification.csv."""
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([supple, str(ROOT / "parameters" / "skin" / scene), "--quiet", "--output", folder], check=True)
-        with open(pathlib.Path(folder) / "identification.csv") as file:
-            return [{name: float(text) for name, text in row.items()} for row in csv.DictReader(file)]
+        return scene_run.identify(supple, ROOT / "parameters" / "skin" / scene, pathlib.Path(folder))
 
 
 def read_printed():

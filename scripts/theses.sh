@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# What the theses print beside what supple computes: the tables and pictures of doc/vein.md, doc/skin-figures.md and
-# doc/corotational.md. scripts/theses.sh makes all, scripts/theses.sh vein, skin or corotational one of them; the tables are
-# printed, and the pages have them by hand. SUPPLE=path takes another executable instead of building one.
+# What the theses print beside what supple computes: runs the scenes, prints tables and writes them into doc/vein.md,
+# doc/skin-figures.md and doc/corotational.md, and draws the pictures of these pages. scripts/theses.sh makes all three (five
+# minutes), scripts/theses.sh vein, skin or corotational some of them. The text between the tables is written by hand.
+# SUPPLE=path takes another executable instead of building one.
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 known=(vein skin corotational)

@@ -1,14 +1,13 @@
 """The figures of the 2005 thesis, chapters 3 and 4: measurements, meshes, errors of its grids; and its plane skin turned about the
 needle's axis beside skin that is computed in space. Called by scripts/theses.sh.
 
-Prints the tables of doc/skin-figures.md and draws doc/pictures/skin-turned*.png, skin-surfaces.png, skin-models.png and
-skin-errors.png. Runs are left in output/theses/skin.
+Writes the tables of doc/skin-figures.md and draws doc/pictures/skin-turned.png, skin-inside.png, skin-turned-curves.png,
+skin-surfaces.png, skin-models.png and skin-errors.png. Runs are left in output/theses/skin.
 """
 
 import argparse
 import csv
 import pathlib
-import subprocess
 import sys
 
 import matplotlib
@@ -20,6 +19,7 @@ from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 import errors
 import frames
+import pages
 import render
 import scene_run
 import volumes
@@ -31,9 +31,13 @@ PICTURES = ROOT / "doc" / "pictures"
 DEPTH, WIDTH, HEIGHT = 0.9e-3, 6e-3, 4.5e-3
 MODELS = ["plane", "axisymmetric", "3d"]
 NAMES = {"plane": "plane, turned", "axisymmetric": "axisymmetric", "3d": "tetrahedra"}
-COLOURS = {"plane": "#b3192b", "axisymmetric": "#1f3a7a", "3d": "#2f7d4f", "corotational": "#d98a1f"}
+RED, BLUE, GREEN, AMBER = "#b3192b", "#1f3a7a", "#2f7d4f", "#d98a1f"
+COLOURS = {"plane": RED, "axisymmetric": BLUE, "3d": GREEN, "corotational": AMBER}
 YOUNG, POISSON = (0.2e6, 0.02e6), 0.48    # by material, as in turned-axisymmetric.prm
-TABLES = {"3.3": 6, "3.4": 6, "3.6": 12, "3.7": 12}    # with the rows of squares of the mesh
+SQUARES = {6: "16, 6", 12: "32, 12"}    # of the thesis's meshes, by rows
+PAIR = {6: {1: 0.017824, 2: 0.019866}, 12: {1: 0.0143, 2: 0.0179}}    # its errors of the best pair [mm], by rows and set
+TABLES = {"3.3": ("3.19", 6), "3.4": ("3.20", 6), "3.6": ("3.24", 12), "3.7": ("3.25", 12)}    # with figure and rows of the mesh
+RATIO_10 = {"3.4": "3.22", "3.7": "3.26"}    # the figure that shows this table at a ratio of 10
 
 
 class Body:
@@ -54,12 +58,12 @@ def profile(folder):
     return [numpy.array([row[a] - row["u" + a] for row in last]) for a in "xz"] + [numpy.array([row["u" + a] for row in last]) for a in "xyz"]
 
 
-def depth_by_distance(folder):
-    """Distance from the axis and depth of the surface to the right of it, after the deformation; of a block straight to the right."""
-    x, z, ux, uy, _ = profile(folder)
-    right = (x > -1e-9) & (abs(z) < 1e-9)
-    order = numpy.argsort(x[right])
-    return (x + ux)[right][order], -uy[right][order]
+def depth_by_distance(folder, diagonal=False):
+    """Distance from the axis and depth of the surface after the deformation: to the right of it, or along the diagonal of a block."""
+    x, z, ux, uy, uz = profile(folder)
+    chosen = (x > -1e-9) & (abs(z - (x if diagonal else 0)) < 1e-9)
+    order = numpy.argsort(x[chosen])
+    return numpy.hypot(x + ux, z + uz)[chosen][order], -uy[chosen][order]
 
 
 def energy_turned(body):
@@ -80,50 +84,65 @@ def energy_turned(body):
     return total
 
 
+def told(share):
+    return errors.percent(share) if isinstance(share, float) else ""
+
+
 def run_turned(supple):
-    """Runs of the three scenes, the axisymmetric one with rotations too; prints forces and errors."""
-    print("| skin | cells | force at 0.9 mm [N] | seconds | stress, error in space | work, error in space |\n" + "|---" * 6 + "|")
-    forces = {}
-    for model in MODELS:
-        summary, probes = scene_run.run(supple, SKIN / f"turned-{model}.prm", OUTPUT / model, {"Output/Frames": "every"})
-        forces[model] = -probes["needle.fy"] * (4 if model == "3d" else 1)
+    """Runs the three scenes, and the axisymmetric one with rotations and without a cure for locking. @return {name: force [N]}"""
+    variants = {"corotational": {"Corotation/Rotation": "polar", "Time/Steps": 9}, "locking": {"Material/Volumetric locking cure": "none"}}
+    names = {**NAMES, "plane": "plane, a strip of 1 mm", "corotational": "axisymmetric, corotational",
+             "locking": "axisymmetric, nothing against locking"}
+    forces, rows = {}, []
+    for run, name in names.items():
+        scene = "axisymmetric" if run in variants else run
+        summary, probes = scene_run.run(supple, SKIN / f"turned-{scene}.prm", OUTPUT / run,
+                                        {"Output/Frames": "every", **variants.get(run, {})})
+        forces[run] = -probes["needle.fy"] * (4 if run == "3d" else 1)    # of a quarter
         space = summary["error_estimate"].get("space", {})
-        told = [errors.percent(space[name]) if isinstance(space.get(name), float) else "" for name in ("energy", "work")]
-        print(f"| {NAMES[model]} | {summary['cells']} | {forces[model]:.4f} | {summary['seconds']['run']:.2g} | {told[0]} | {told[1]} |")
-    summary, probes = scene_run.run(supple, SKIN / "turned-axisymmetric.prm", OUTPUT / "corotational",
-                                    {"Corotation/Rotation": "polar", "Time/Steps": 9})
-    print(f"| axisymmetric, corotational | {summary['cells']} | {-probes['needle.fy']:.4f} | {summary['seconds']['run']:.2g} | |")
-    summary, probes = scene_run.run(supple, SKIN / "turned-axisymmetric.prm", OUTPUT / "locking",
-                                    {"Output/Frames": "every", "Material/Volumetric locking cure": "none"})
-    print(f"| axisymmetric, nothing against locking | {summary['cells']} | {-probes['needle.fy']:.4f} | {summary['seconds']['run']:.2g} | |")
+        rows.append([name, summary["cells"], f"{summary['seconds']['run']:.2g}", told(space.get("energy")), told(space.get("work"))])
+    forces["turned"] = 2 * energy_turned(Body(OUTPUT / "plane")) / DEPTH
+    names["turned"] = "plane, turned: by its energy"
+    pages.put_table("skin-figures.md", ["skin", "force at 0.9 mm [N]", "part of the axisymmetric one"],
+                    [[names[run], f"{force:.4f}", f"{force / forces['axisymmetric']:.2f}"] for run, force in forces.items()])
+    pages.put_table("skin-figures.md", ["skin", "cells", "seconds", "error in space, of the stress", "of the force"], rows)
     elastic = scene_run.last_row(OUTPUT / "locking" / "history.csv")["elastic"]
-    turned = 2 * energy_turned(Body(OUTPUT / "plane")) / DEPTH
-    print(f"\nForce by the energy of the turned displacements: {turned:.4f} N. The same sum over the axisymmetric body with nothing against "
-          f"locking is {energy_turned(Body(OUTPUT / 'locking')) / elastic:.6f} of its energy.")
-    return forces, turned
+    print(f"The same sum over the axisymmetric body with nothing against locking is {energy_turned(Body(OUTPUT / 'locking')) / elastic:.6f} "
+          "of its energy.\n")
+    return forces
 
 
-def draw_curves(forces, turned):
+def compare_surfaces():
+    """The table of depths beside those of the axisymmetric skin."""
+    distances = numpy.linspace(0.5e-3, 6e-3, 1101)
+    right = numpy.interp(distances, *depth_by_distance(OUTPUT / "axisymmetric"))
+    rows = [["axisymmetric", f"{1e3 * numpy.interp(2e-3, distances, right):.3f}", "", "", ""]]
+    for name, model, diagonal in [("plane, turned", "plane", False), ("tetrahedra, to the side", "3d", False),
+                                  ("tetrahedra, along the diagonal", "3d", True)]:
+        depth = numpy.interp(distances, *depth_by_distance(OUTPUT / model, diagonal))
+        apart = abs(depth - right)
+        rows.append([name, *(f"{1e3 * number:.3f}" for number in (numpy.interp(2e-3, distances, depth), apart.max(),
+                                                                  distances[apart.argmax()], apart[distances > 0.75e-3].max()))])
+    pages.put_table("skin-figures.md", ["surface", "depth at 2 mm [mm]", "largest difference from the axisymmetric one [mm]",
+                                        "at a distance of [mm]", "largest difference beyond 0.75 mm [mm]"], rows)
+
+
+def draw_curves(forces):
     """Depth by distance, differences from the axisymmetric surface, and force by depth."""
     figure, (surfaces, differences, needle) = matplotlib.pyplot.subplots(1, 3, figsize=(13, 4))
-    curves = {model: depth_by_distance(OUTPUT / model) for model in MODELS}
-    distances = numpy.linspace(0.5e-3, 6e-3, 111)
-    right = numpy.interp(distances, *curves["axisymmetric"])
-    print("\n| surface | largest difference from the axisymmetric one | at |\n|---|---|---|")
+    distances = numpy.linspace(0.5e-3, 6e-3, 1101)
+    right = numpy.interp(distances, *depth_by_distance(OUTPUT / "axisymmetric"))
     for model in MODELS:
-        surfaces.plot(1e3 * curves[model][0], -1e3 * curves[model][1], color=COLOURS[model], label=NAMES[model])
+        distance, depth = depth_by_distance(OUTPUT / model)
+        surfaces.plot(1e3 * distance, -1e3 * depth, color=COLOURS[model], label=NAMES[model])
         if model != "axisymmetric":
-            apart = numpy.interp(distances, *curves[model]) - right
-            worst = abs(apart).argmax()
-            differences.plot(1e3 * distances, 1e3 * apart, color=COLOURS[model], label=NAMES[model])
-            print(f"| {NAMES[model]} | {1e3 * apart[worst]:.3f} mm | {1e3 * distances[worst]:.2f} mm |")
-    axis = numpy.array([0, DEPTH])
-    for model, force in [("axisymmetric", forces["axisymmetric"]), ("3d", forces["3d"])]:
-        needle.plot(1e3 * axis, [0, force], color=COLOURS[model], label=NAMES[model])
-    needle.plot(1e3 * axis, [0, turned], color=COLOURS["plane"], label="plane, turned: by its energy")
-    needle.plot(1e3 * axis, [0, forces["plane"]], color=COLOURS["plane"], linestyle="--", label="plane, a strip of 1 mm")
+            differences.plot(1e3 * distances, 1e3 * (numpy.interp(distances, distance, depth) - right), color=COLOURS[model],
+                             label=NAMES[model])
+    for run, colour, style, name in [("axisymmetric", BLUE, "-", "axisymmetric"), ("3d", GREEN, "-", "tetrahedra"),
+                                     ("turned", RED, "-", "plane, turned: by its energy"), ("plane", RED, "--", "plane, a strip of 1 mm")]:
+        needle.plot([0, 1e3 * DEPTH], [0, forces[run]], style, color=colour, label=name)
     rows = scene_run.rows(OUTPUT / "corotational" / "probes.csv")
-    needle.plot([1e3 * DEPTH * row["time"] for row in rows], [-row["needle.fy"] for row in rows], color=COLOURS["corotational"],
+    needle.plot([1e3 * DEPTH * row["time"] for row in rows], [-row["needle.fy"] for row in rows], color=AMBER,
                 label="axisymmetric, corotational")
     for axes, title, y in [(surfaces, "surface", "height in mm"), (differences, "deeper than axisymmetric", "difference in mm"),
                            (needle, "resistance", "force in N")]:
@@ -136,28 +155,47 @@ def draw_curves(forces, turned):
 
 
 def surface_of_revolution(folder):
-    """The back half of the block's surface, its heights those of the profile at each point's distance from the axis."""
+    """The block's surface: places x, z at rest, and as height that of the profile at each point's distance from the axis."""
     distance, depth = depth_by_distance(folder)
-    across = numpy.linspace(-1, 1, 33)
+    across = numpy.linspace(-1, 1, 65)
     across = WIDTH * across * (0.3 + 0.7 * across ** 2)    # close to the needle more of them
-    x, z = numpy.meshgrid(across, across[across <= 1e-9], indexing="ij")
-    down = numpy.interp(numpy.hypot(x, z), distance, depth, right=0.)
-    return x, z, -down
+    x, z = numpy.meshgrid(across, across, indexing="ij")
+    return x, z, -numpy.interp(numpy.hypot(x, z), distance, depth, right=0.)
 
 
 def surface_of_block(folder):
+    """The same of the block in tetrahedra, of which a quarter was computed."""
     x, z, _, uy, _ = profile(folder)
     heights = {(round(1e6 * a), round(1e6 * b)): height for a, b, height in zip(x, z, uy)}
     sides = sorted({round(1e6 * a) for a in x})
     across = numpy.array([-side for side in sides[:0:-1]] + sides)
-    x, z = numpy.meshgrid(across, across[across <= 0], indexing="ij")
-    down = numpy.vectorize(lambda a, b: heights[abs(a), abs(b)])(x, z)
-    return 1e-6 * x, 1e-6 * z, down
+    x, z = numpy.meshgrid(across, across, indexing="ij")
+    return 1e-6 * x, 1e-6 * z, numpy.vectorize(lambda a, b: heights[abs(a), abs(b)])(x, z)
 
 
-def cut_of(folder, model):
-    """The triangles of the cut through the axis: places at rest, displacements, triangles."""
-    body = Body(folder)
+def surface_of(model, half):
+    """Surface of the block or of its back half as places at rest, displacements and triangles."""
+    x, z, height = (surface_of_block if model == "3d" else surface_of_revolution)(OUTPUT / model)
+    if half:
+        x, z, height = (numbers[:, :x.shape[1] // 2 + 1] for numbers in (x, z, height))
+    numbers = numpy.arange(x.size).reshape(x.shape)
+    quads = numpy.stack([numbers[:-1, :-1], numbers[1:, :-1], numbers[1:, 1:], numbers[:-1, 1:]], axis=-1).reshape(-1, 4)
+    none = numpy.zeros(x.size)
+    return (numpy.column_stack([x.ravel(), none, z.ravel()]), numpy.column_stack([none, height.ravel(), none]),
+            numpy.vstack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]))
+
+
+def walls():
+    """The four held sides of the block, in the same form."""
+    corners = numpy.array([[x, y, z] for y in (0, -HEIGHT) for x, z in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
+    corners[:, [0, 2]] *= WIDTH
+    triangles = [triangle for a in range(4) for b in [(a + 1) % 4] for triangle in ((a, b, b + 4), (a, b + 4, a + 4))]
+    return corners, numpy.zeros((8, 3)), numpy.array(triangles)
+
+
+def cut_of(model):
+    """The cut through the axis, in the same form."""
+    body = Body(OUTPUT / model)
     triangles = body.cells
     if model == "3d":
         faces = numpy.vstack([body.cells[:, corners] for corners in ([0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3])])
@@ -170,46 +208,52 @@ def cut_of(folder, model):
     return rest, moved, triangles
 
 
-def write_half(model, file):
-    """Surface and cut as one body that can be drawn."""
-    x, z, down = (surface_of_block if model == "3d" else surface_of_revolution)(OUTPUT / model)
-    numbers = numpy.arange(x.size).reshape(x.shape)
-    quads = numpy.stack([numbers[:-1, :-1], numbers[1:, :-1], numbers[1:, 1:], numbers[:-1, 1:]], axis=-1).reshape(-1, 4)
-    triangles = numpy.vstack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
-    rest = numpy.column_stack([x.ravel(), numpy.zeros(x.size), z.ravel()])
-    moved = numpy.column_stack([numpy.zeros(x.size), down.ravel(), numpy.zeros(x.size)])
-    cut_rest, cut_moved, cut = cut_of(OUTPUT / model, model)
-    triangles = numpy.vstack([triangles, cut + len(rest)])
-    rest, moved = numpy.vstack([rest, cut_rest]), numpy.vstack([moved, cut_moved])
+def write_triangles(parts, file):
+    """Parts of a body as one VTU file, which can be drawn."""
+    rest, moved, triangles = parts[0]
+    for more_rest, more_moved, more_triangles in parts[1:]:
+        triangles = numpy.vstack([triangles, more_triangles + len(rest)])
+        rest, moved = numpy.vstack([rest, more_rest]), numpy.vstack([moved, more_moved])
     used, triangles = numpy.unique(triangles, return_inverse=True)
-    rest, moved, triangles = rest[used], moved[used], triangles.reshape(-1, 3)
     points = vtk.vtkPoints()
-    points.SetData(numpy_to_vtk(rest + moved, deep=True))
+    points.SetData(numpy_to_vtk((rest + moved)[used], deep=True))
+    cells = vtk.vtkCellArray()
+    for triangle in triangles.reshape(-1, 3):
+        cells.InsertNextCell(3, [int(vertex) for vertex in triangle])
     grid = vtk.vtkUnstructuredGrid()
     grid.SetPoints(points)
-    cells = vtk.vtkCellArray()
-    for triangle in triangles:
-        cells.InsertNextCell(3, [int(vertex) for vertex in triangle])
     grid.SetCells(vtk.VTK_TRIANGLE, cells)
-    array = numpy_to_vtk(moved, deep=True)
-    array.SetName("displacement")
-    grid.GetPointData().AddArray(array)
+    displacement = numpy_to_vtk(moved[used], deep=True)
+    displacement.SetName("displacement")
+    grid.GetPointData().AddArray(displacement)
     writer = vtk.vtkXMLUnstructuredGridWriter()
     writer.SetFileName(str(file))
     writer.SetInputData(grid)
     writer.Write()
 
 
-def draw_turned():
+def draw_bodies(rows, picture, **look):
+    """Bodies of triangles, {name: parts} of each row, coloured by displacement."""
     files = []
-    for model in MODELS:
-        files.append(OUTPUT / f"half-{model}.vtu")
-        write_half(model, files[-1])
-    look = argparse.Namespace(field="displacement", range=(0, DEPTH), title="displacement", plain=True, outline="edges",
-                              camera=(0.25, 0.7, 1), up=(0, 1, 0), width=1100, enlarge=1)
-    drawing = render.Drawing([[(0, file) for file in files]], look, 3)
-    places = [(0, column, grid, NAMES[model]) for column, (grid, model) in enumerate(zip(drawing.grids[0], MODELS))]
-    drawing.write(PICTURES / "skin-turned.png", places, (1, 3))
+    for row, bodies in enumerate(rows):
+        files.append([(0, OUTPUT / f"{picture}-{row}-{column}.vtu") for column in range(len(bodies))])
+        for (_, file), parts in zip(files[-1], bodies.values()):
+            write_triangles(parts, file)
+    columns = len(files[0])
+    drawing = render.Drawing(files, argparse.Namespace(field="displacement", range=(0, DEPTH), title="displacement", outline="edges",
+                                                       up=(0, 1, 0), enlarge=1, **look), columns)
+    places = [(row, column, grid, name) for row, (grids, bodies) in enumerate(zip(drawing.grids, rows))
+              for column, (grid, name) in enumerate(zip(grids, bodies))]
+    drawing.write(PICTURES / f"{picture}.png", places, (len(rows), columns))
+
+
+def draw_turned():
+    """Figures 4.1 and 4.4: the block, the same cut open, and the cells inside."""
+    blocks = {NAMES[model]: [surface_of(model, half=False), walls()] for model in MODELS}
+    halves = {f"{NAMES[model]}, cut": [surface_of(model, half=True), cut_of(model)] for model in MODELS}
+    draw_bodies([blocks, halves], "skin-turned", plain=True, camera=(0.25, 0.7, 1), width=1100)
+    cuts = [{f"{NAMES[model]}, inside": [cut_of(model)]} for model in MODELS]
+    draw_bodies(cuts, "skin-inside", plain=False, camera=(0, 0, 1), width=900)
 
 
 class Thesis:
@@ -221,7 +265,7 @@ class Thesis:
         layers = f"{thickness}, {HEIGHT - thickness}"
         self.folder = OUTPUT / f"thesis-{n_rows}-{rows}-{ratio:g}"
         scene_run.run(supple, SKIN / "thesis.prm", self.folder,
-                      {"Output/Frames": "every", "Mesh/Rectangle squares": "16, 6" if n_rows == 6 else "32, 12", "Mesh/Layers": layers,
+                      {"Output/Frames": "every", "Mesh/Rectangle squares": SQUARES[n_rows], "Mesh/Layers": layers,
                        "Material/By id": f"1: {0.2e6 / ratio}, 0.48, 1000", "Space/Estimate error": "never"})
         self.body = Body(self.folder)
         x, _, ux, uy, _ = profile(self.folder)
@@ -245,6 +289,17 @@ class Thesis:
     def error(self, depth, distance, measured):
         return numpy.sqrt(((self.heights(depth, distance) + measured) ** 2).sum()) / len(measured)
 
+    def places(self, depth):
+        return self.body.rest + depth / 1e-3 * self.body.moved
+
+    def area_ratios(self, depth):
+        """Of each triangle its area over that at rest, negative if it is inside out."""
+        corners, rest = (places[self.body.cells, :2] for places in (self.places(depth), self.body.rest))
+        return numpy.linalg.det(corners[:, 1:] - corners[:, :1]) / numpy.linalg.det(rest[:, 1:] - rest[:, :1])
+
+    def lowest_of_interface(self, depth):
+        return self.places(depth)[abs(self.body.rest[:, 1] - self.interface) < 1e-9, 1].min()
+
 
 def measurements():
     with open(SKIN / "fingertip.csv") as file:
@@ -252,53 +307,66 @@ def measurements():
     return {number: numpy.array([row[1:] for row in rows if row[0] == number]).T for number in (1, 2)}
 
 
-def crosses(axes, points, both=True):
+def crosses(axes, points, sides=(1, -1)):
+    """The measured points, and their mirror image."""
     distance, depth = 1e3 * points
-    axes.plot(distance, -depth, "+", color="#b3192b", markersize=6)
-    if both:
-        axes.plot(-distance, -depth, "+", color="#b3192b", markersize=6)
+    for side in sides:
+        axes.plot(side * distance, -depth, "+", color=RED, markersize=6)
+
+
+def draw_measurements(panel, number, points):
+    """Figures 3.11 and 3.12."""
+    distance, depth = 1e3 * points
+    crosses(panel, points)
+    panel.plot([*-distance[::-1], *distance], [*-depth[::-1], *-depth], color="#5b7fa6", linewidth=0.9)
+    panel.set_title(f"3.11, 3.12: measurements, set {number}")
+
+
+def draw_forms(supple, panel):
+    """Figure 3.14."""
+    for ratio, colour in [(511, BLUE), (1, AMBER)]:
+        x, ux, uy = Thesis(supple, 6, 3, ratio).surface
+        panel.plot(1e3 * x + 1.8 * ux, 1.8 * uy, color=colour, label=f"ratio {ratio}")
+    panel.legend(fontsize=8)
+    panel.set_title("3.14: two forms of the surface")
+
+
+def draw_correction(supple, panels, points):
+    """Figures 3.17 and 3.18, with their table."""
+    model = Thesis(supple, 6, 3, 10)
+    x, ux, uy = model.surface
+    rows = []
+    for panel, depth, figure, name, style in [(panels[0], points[1][0], "3.17", "before the correction", "--"),
+                                              (panels[1], model.corrected(*points), "3.18", "after it", "-")]:
+        for axes in (panel, panels[2]):
+            axes.plot(1e3 * (x + depth * ux), 1e3 * depth * uy, style, color=BLUE, label=name)
+        crosses(panel, points)
+        panel.set_title(f"{figure}: {name}, {1e3 * depth:.3f} mm", fontsize=11)
+        rows.append([name, f"{1e3 * depth:.4f}", f"{1e3 * model.error(depth, *points):.6f}"])
+    crosses(panels[2], points)
+    panels[2].set_xlim(-1.2, 1.2)
+    panels[2].set_ylim(-2.3, -1.1)
+    panels[2].legend(fontsize=8)
+    panels[2].set_title("3.17, 3.18: their details")
+    pages.put_table("skin-figures.md", ["3 of 6 rows, ratio 10, set 1", "depth of the needle [mm]", "error sqrt(sum e^2)/n [mm]"], rows)
 
 
 def draw_surfaces(supple, measured):
-    """Figures 3.11, 3.12, 3.14, 3.17 and 3.18."""
-    figure, axes = matplotlib.pyplot.subplots(2, 3, figsize=(13, 6.4))
-    for panel, number in zip(axes[0], (1, 2)):
-        crosses(panel, measured[number])
-        distance, depth = 1e3 * measured[number]
-        panel.plot([*-distance[::-1], *distance], [*-depth[::-1], *-depth], color="#5b7fa6", linewidth=0.9)
-        panel.set_title(f"3.11, 3.12: measurements, set {number}")
-    for ratio, colour, form in [(511, "#1f3a7a", "511"), (1, "#d98a1f", "1")]:
-        model = Thesis(supple, 6, 3, ratio)
-        x, ux, uy = model.surface
-        axes[0, 2].plot(1e3 * x + 1.8 * ux, 1.8 * uy, color=colour, label=f"ratio {form}")
-    axes[0, 2].legend(fontsize=8)
-    axes[0, 2].set_title("3.14: two forms of the surface")
-    model, points = Thesis(supple, 6, 3, 10), measured[1]
-    depth = model.corrected(*points)
-    x, ux, uy = model.surface
-    print("\n| 3 of 6 rows, ratio 10, set 1 | depth of the needle [mm] | error sqrt(sum e^2)/n [mm] |\n|---|---|---|")
-    for panel, d, name in zip(axes[1], (points[1][0], depth), ("3.17: before the correction", "3.18: after it")):
-        panel.plot(1e3 * (x + d * ux), 1e3 * d * uy, color="#1f3a7a")
-        crosses(panel, points, both=False)
-        crosses(panel, points * numpy.array([[-1], [1]]), both=False)
-        panel.set_title(f"{name}: {1e3 * d:.3f} mm deep")
-        print(f"| {name[6:]} | {1e3 * d:.4f} | {1e3 * model.error(d, *points):.6f} |")
-    for d, style, name in ((points[1][0], "--", "before"), (depth, "-", "after")):
-        axes[1, 2].plot(1e3 * (x + d * ux), 1e3 * d * uy, style, color="#1f3a7a", label=name)
-    crosses(axes[1, 2], points)
-    axes[1, 2].set_xlim(-1.2, 1.2)
-    axes[1, 2].set_ylim(-2.3, -1.1)
-    axes[1, 2].legend(fontsize=8)
-    axes[1, 2].set_title("3.17, 3.18: their details")
+    figure, axes = matplotlib.pyplot.subplots(2, 3, figsize=(13, 6.8))
+    for panel, (number, points) in zip(axes[0], measured.items()):
+        draw_measurements(panel, number, points)
+    draw_forms(supple, axes[0, 2])
+    draw_correction(supple, axes[1], measured[1])
     for panel in axes.ravel():
         panel.grid(alpha=0.3)
-        panel.set_xlabel("mm")
+        panel.set_xlabel("distance in mm")
+        panel.set_ylabel("height in mm")
     volumes.save(figure, PICTURES / "skin-surfaces.png")
 
 
 def draw_mesh(axes, model, depth, title, points=None):
-    places = 1e3 * (model.body.rest + depth / 1e-3 * model.body.moved)
-    for material, colour in ((0, "#b3192b"), (1, "#1f3a7a")):
+    places = 1e3 * model.places(depth)
+    for material, colour in ((0, GREEN), (1, BLUE)):
         cells = model.body.cells[model.body.materials == material]
         axes.triplot(places[:, 0], places[:, 1], cells, color=colour, linewidth=0.4)
     if points is not None:
@@ -307,77 +375,81 @@ def draw_mesh(axes, model, depth, title, points=None):
     axes.set_title(title, fontsize=10)
     axes.set_aspect("equal")
     axes.set_xlim(-6.3, 6.3)
+    axes.set_ylim(-5.2, 0.4)
 
 
 def draw_models(supple, measured):
-    """Figures 3.8, 3.9, 3.21, 3.23 and 3.27."""
-    figure, axes = matplotlib.pyplot.subplots(4, 2, figsize=(9.6, 8))
-    meshes = {n_rows: Thesis(supple, n_rows, n_rows // 2, 10) for n_rows in (6, 12)}
-    print("\n| mesh | set | depth [mm] | error sqrt(sum e^2)/n [mm] | in the order of the tables |\n|---|---|---|---|---|")
-    for column, (n_rows, model) in enumerate(meshes.items()):
-        draw_mesh(axes[0, column], model, 0, f"{'3.8' if n_rows == 6 else '3.9'}: {n_rows} rows, at rest")
+    """Figures 3.8, 3.9, 3.21, 3.23 and 3.27, with their tables."""
+    figure, axes = matplotlib.pyplot.subplots(4, 2, figsize=(9.6, 9))
+    rows = []
+    for column, (n_rows, rest, best) in enumerate([(6, "3.8", "3.23"), (12, "3.9", "3.27")]):
+        model = Thesis(supple, n_rows, n_rows // 2, 10)
+        draw_mesh(axes[0, column], model, 0, f"{rest}: {n_rows} rows, at rest")
         for row, (number, points) in enumerate(measured.items(), 1):
             depth = model.corrected(*points)
-            draw_mesh(axes[row, column], model, depth, f"{'3.23' if n_rows == 6 else '3.27'}: {n_rows} rows, set {number}, {1e3 * depth:.2f} mm",
-                      points)
-            printed = {(6, 1): 0.017824, (6, 2): 0.019866, (12, 1): 0.0143, (12, 2): 0.0179}[n_rows, number]
-            print(f"| {2 * n_rows + 4 if n_rows == 6 else 32} x {n_rows} | {number} | {1e3 * depth:.4f} | "
-                  f"{1e3 * model.error(depth, *points):.6f} | {printed} |")
+            draw_mesh(axes[row, column], model, depth, f"{best}: {n_rows} rows, set {number}, {1e3 * depth:.2f} mm", points)
+            rows.append([SQUARES[n_rows].replace(", ", " x "), number, f"{1e3 * depth:.4f}", f"{1e3 * model.error(depth, *points):.6f}",
+                         PAIR[n_rows][number], (model.area_ratios(depth) <= 0).sum()])
+    pages.put_table("skin-figures.md", ["mesh", "set", "depth [mm]", "error sqrt(sum e^2)/n [mm]", "printed", "cells inside out"], rows)
     failing = Thesis(supple, 6, 5, 511)
     draw_mesh(axes[3, 0], failing, 1.8e-3, "3.21: 5 of 6 rows hard, ratio 511, 1.8 mm")
     draw_mesh(axes[3, 1], failing, 0.9e-3, "the same at 0.9 mm")
-    for depth in (0.6e-3, 0.75e-3, 0.9e-3, 1.8e-3):
-        places = failing.body.rest + depth / 1e-3 * failing.body.moved
-        corners = places[failing.body.cells, :2]
-        rest = failing.body.rest[failing.body.cells, :2]
-        ratios = numpy.linalg.det(corners[:, 1:] - corners[:, :1]) / numpy.linalg.det(rest[:, 1:] - rest[:, :1])
-        print(f"3.21: at {1e3 * depth:.2f} mm {int((ratios <= 0).sum())} cells inside out, smallest area ratio {ratios.min():.3f}, "
-              f"lowest vertex of the lower layer's top {1e3 * places[abs(failing.body.rest[:, 1] - failing.interface) < 1e-9, 1].min():.3f} mm")
+    rows = [[f"{1e3 * depth:.2f}", (failing.area_ratios(depth) <= 0).sum(), f"{failing.area_ratios(depth).min():.3f}",
+             f"{1e3 * (failing.lowest_of_interface(depth) + HEIGHT):.3f}"] for depth in (0.6e-3, 0.75e-3, 0.9e-3, 1.8e-3)]
+    pages.put_table("skin-figures.md", ["3.21, depth [mm]", "cells inside out", "smallest area ratio",
+                                        "upper layer above the bone [mm]"], rows)
     volumes.save(figure, PICTURES / "skin-models.png")
+
+
+def draw_grid(panel, rows, number, n_rows):
+    """Errors over the elasticity ratio, a line for each thickness."""
+    thicknesses = sorted({row["thickness"] for row in rows})
+    colours = matplotlib.pyplot.get_cmap("viridis")
+    for part, thickness in enumerate(thicknesses):
+        curve = sorted((row["ratio"], row[f"error_{number}"]) for row in rows if row["thickness"] == thickness)
+        panel.plot(*zip(*curve), color=colours(part / len(thicknesses)), linewidth=1.1, label=f"{part + 1}/{n_rows}")
+    panel.set_xscale("log" if max(row["ratio"] for row in rows) > 100 else "linear")
+    panel.set_xlabel("elasticity ratio")
+
+
+def draw_thickness(panel, rows):
+    """Errors over the thickness at a ratio of 10."""
+    for number, colour in ((1, RED), (2, BLUE)):
+        panel.plot(*zip(*sorted((row["thickness"] / 4.5, row[f"error_{number}"]) for row in rows if row["ratio"] == 10)),
+                   "o-", color=colour, label=f"set {number}")
+    panel.set_xlabel("thickness of the upper layer / 4.5 mm")
+    panel.axhspan(0, 0.025, color=GREEN, alpha=0.12)
+    panel.legend(fontsize=8)
 
 
 def draw_errors(supple):
     """Figures 3.19, 3.20, 3.22, 3.24, 3.25 and 3.26: the errors of the thesis's grids, by its recipe."""
     figure, axes = matplotlib.pyplot.subplots(3, 4, figsize=(15, 10))
-    colours = matplotlib.pyplot.get_cmap("viridis")
-    for column, (table, n_rows) in enumerate(TABLES.items()):
-        folder = OUTPUT / f"table-{table}"
-        subprocess.run([supple, str(SKIN / f"tables-{table}.prm"), "--quiet", "--output", str(folder)], check=True)
-        rows = scene_run.rows(folder / "identification.csv")
-        thicknesses = sorted({row["thickness"] for row in rows})
-        for line, number in enumerate((1, 2)):
-            panel = axes[line, column]
-            for part, thickness in enumerate(thicknesses):
-                curve = sorted((row["ratio"], row[f"error_{number}"]) for row in rows if row["thickness"] == thickness)
-                panel.plot(*zip(*curve), color=colours(part / len(thicknesses)), linewidth=1.1,
-                           label=f"{round(thickness * n_rows / 4.5)}/{n_rows}")
-            figure_number = {"3.3": "3.19", "3.4": "3.20", "3.6": "3.24", "3.7": "3.25"}[table]
-            panel.set_title(f"{figure_number} (table {table}), set {number}", fontsize=10)
-            panel.set_xscale("log" if table in ("3.3", "3.6") else "linear")
-            panel.set_xlabel("elasticity ratio")
-        axes[0, column].legend(fontsize=7, title="upper layer", title_fontsize=7, ncol=2)
-        if table in ("3.4", "3.7"):
-            panel = axes[2, 0 if table == "3.4" else 1]
-            for number, colour in ((1, "#b3192b"), (2, "#1f3a7a")):
-                panel.plot(*zip(*sorted((row["thickness"] / 4.5, row[f"error_{number}"]) for row in rows if row["ratio"] == 10)),
-                           "o-", color=colour, label=f"set {number}")
-            panel.set_title(f"{'3.22' if table == '3.4' else '3.26'}: ratio 10, {n_rows} rows", fontsize=10)
-            panel.set_xlabel("thickness of the upper layer / 4.5 mm")
-            panel.axhspan(0, 0.025, color="#2f7d4f", alpha=0.12)
-            panel.legend(fontsize=8)
+    for column, (table, (name, n_rows)) in enumerate(TABLES.items()):
+        rows = scene_run.identify(supple, SKIN / f"tables-{table}.prm", OUTPUT / f"table-{table}")
+        for panel, number in zip(axes[:, column], (1, 2)):
+            draw_grid(panel, rows, number, n_rows)
+            panel.set_title(f"{name} (table {table}), set {number}", fontsize=10)
+        below = axes[2, column]
+        if table in RATIO_10:
+            draw_thickness(below, rows)
+            below.set_title(f"{RATIO_10[table]}: ratio 10, {n_rows} rows", fontsize=10)
+        else:
+            below.axis("off")
+            below.legend(*axes[0, column].get_legend_handles_labels(), title="upper layer, of all lines above and to the right",
+                         loc="center", ncol=2)
     for panel in axes.ravel():
         panel.grid(alpha=0.3)
         panel.set_ylim(bottom=0)
         panel.set_ylabel("error in mm")
-    axes[2, 2].axis("off")
-    axes[2, 3].axis("off")
     volumes.save(figure, PICTURES / "skin-errors.png")
 
 
 def main():
     supple = sys.argv[1]
-    forces, turned = run_turned(supple)
-    draw_curves(forces, turned)
+    forces = run_turned(supple)
+    compare_surfaces()
+    draw_curves(forces)
     draw_turned()
     measured = measurements()
     draw_surfaces(supple, measured)

@@ -1,11 +1,14 @@
-"""The tests of the 2002 thesis: its own recipe, linear and corotational elasticity, free and held. Called by scripts/theses.sh.
+"""The tests of the 2002 thesis by its own recipe, and where linear and corotational bodies come to rest, free and held. Called by
+scripts/theses.sh.
 
-Prints the tables of doc/vein.md and draws doc/pictures/vein-thesis-1.png to -5.png. Runs are left in output/theses/vein. Where
-a held body of tests 1 to 4 comes to rest is found as a static problem, which has no damping; the errors are of 200 steps.
+Writes the tables of doc/vein.md and draws doc/pictures/vein-thesis-1.png to -5.png. Runs are left in output/theses/vein. Errors in
+time are those of the first 200 steps of the thesis on the way to rest.
 """
 
 import csv
+import dataclasses
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -15,17 +18,20 @@ from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 import errors
 import frames
+import pages
 import scene_run
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 DATA = ROOT / "tests" / "data" / "vein"
 OUTPUT = ROOT / "output" / "theses" / "vein"
-HELD = {1: ("top", "3"), 2: ("both ends", "2, 3"), 3: ("bottom", "2"), 4: ("both ends", "2, 3"), 5: ("both ends", "2, 3")}
-MODELS = {"linear": "none", "corotational": "polar"}
-SMALLER = "0; 0; 1000*sin(10*pi*z/4.9)"    # the force of test 5 in the thesis's program; its text has 10000
-RANGE = {1: (0.96, 1.04), 2: (0.8, 1.2), 3: (0.8, 1.2), 4: (0.75, 1.25), 5: (0.7, 1.3)}
+HELD = {1: "top", 2: "both ends", 3: "bottom", 4: "both ends", 5: "both ends"}
+BOUNDARIES = {"nothing": "", "top": "3", "bottom": "2", "both ends": "2, 3"}
+STATIC = {"Time/Problem": "static", "Time/Steps": 10, "Damping/Viscous": 0}
+LONG = {"Time/Steps": 12000}
+PRINTED, SMALLER = "10000", "1000"    # the force of test 5 in the thesis's text and in its program
+RANGE = {1: (0.96, 1.04), 2: (0.8, 1.2), 3: (0.8, 1.2), 4: (0.76, 1.24), 5: (0.7, 1.3)}
 LOOK = {4: ("--up", "0", "-1", "0", "--camera", "1", "0", "0.35")}    # the vertex moves along y
-SWEEPS, FRAMES = 4, 100    # of tests 1 to 4, and of test 5, which goes on without end
+SWEEPS, FRAMES = 4, 100    # of the recipe: of tests 1 to 4, and of test 5, which goes on without end
 
 
 def read(name):
@@ -79,13 +85,13 @@ def case_of(test):
     return case
 
 
-def thesis_point(test):
+def thesis_point(test, sweeps=SWEEPS):
     """Tests 1 to 4 by the thesis's program: one time step, by so many sweeps, is what it draws."""
     case = case_of(test)
     new = VERTICES.copy()
     new[case["vertex"]] = case["to"]
     matrix = thesis_stiffness(VERTICES, *case["lame"])
-    for _ in range(SWEEPS):
+    for _ in range(sweeps):
         thesis_sweep(matrix, new, VERTICES, VERTICES, case)
     return new
 
@@ -125,77 +131,179 @@ def leave(places, folder, like):
                                          "</Collection></VTKFile>\n")
 
 
-def row_of(test, size, held, model, at_rest, moving):
-    """A line of the table: where the body comes to rest, by one run, and the errors on its way there, by another."""
-    folder, summary = at_rest
-    last, probes = scene_run.last_row(folder / "history.csv"), scene_run.last_row(folder / "probes.csv")
-    mean = ", ".join(f"{probes['all.u' + axis]:.6f}" for axis in "xyz").replace("-0.000000", "0.000000")
-    seconds = f"{summary['seconds']['run']:.2g}, {moving['seconds']['run']:.2g}"
-    return [f"{test}{size}", held, model, f"{last['min_volume_ratio']:.6f}", f"{last['max_volume_ratio']:.6f}", int(last["inverted"]),
-            mean, seconds, errors.in_time(moving), errors.in_space(moving, False)]
+@dataclasses.dataclass(eq=False)
+class Case:
+    """A body that comes to rest: test, size of the force of test 5, what is held, the model, and what else is set."""
+    test: int
+    size: str
+    held: str
+    model: str
+    settings: dict
+
+    def name(self):
+        return f"{self.test}, {self.size}" if self.size else str(self.test)
+
+    def folder(self):
+        return OUTPUT / re.sub(r"\W+", "-", f"{self.name()} {self.held} {self.model}")
+
+    def stated(self):
+        """What is set on the way to rest and at rest alike."""
+        force = {"Loads/Nodal force": along_axis(self.size)} if self.size else {}
+        return {"Corotation/Rotation": scene_run.MODELS[self.model], **held_by(self.held.partition(",")[0]), **force}
 
 
-def compute(supple, test):
-    """Prints a row for each variant; the folders of the runs that are drawn, and what they are called."""
-    scene = ROOT / "parameters" / "vein" / f"thesis-{test}.prm"
-    drawn = []
-    for size, force in ([(" (10000)", {}), (" (1000)", {"Loads/Nodal force": SMALLER})] if test == 5 else [("", {})]):
-        for held, boundaries in [("nothing", ""), HELD[test]]:
-            for model, rotation in MODELS.items():
-                if size == " (10000)" and model == "corotational":
-                    continue    # it never comes to rest: doc/vein.md
-                words = [str(test), size.strip(" ()"), "held" if boundaries else "free", model]
-                folder = OUTPUT / "-".join(filter(None, words))
-                settings = {"Corotation/Rotation": rotation, "Constraints/Clamped boundaries": boundaries, **force}
-                drawable = {"Output/Frames": "every", "Output/Every": 1000000}    # the first and the last
-                static = {"Time/Problem": "static", "Time/Steps": 10, "Damping/Viscous": 0} if boundaries and test < 5 else {}
-                at_rest, _ = scene_run.run(supple, scene, folder, {**settings, **drawable, **static, "Space/Estimate error": "never"})
-                moving, _ = scene_run.run(supple, scene, OUTPUT / "moving", {**settings, "Time/Steps": 200, "Time/Estimate error": "true"})
-                row = row_of(test, size, held, model, (folder, at_rest), moving)
-                print("| " + " | ".join(map(str, row)) + " |", flush=True)
-                if size != " (10000)":
-                    drawn.append((folder, f"{model}, {'held' if boundaries else 'free'}"))
-    return drawn
+def held_by(part):
+    return {"Constraints/Clamped boundaries": BOUNDARIES[part]}
 
 
-def draw(test, bodies):
-    """Each body at the end of its run, one below the other, lying with the top to the right."""
-    folders, names = zip(*bodies)
+def along_axis(size):
+    return f"0; 0; {sine(size)}"
+
+
+def sine(size):
+    return f"{size}*sin(10*pi*z/4.9)"
+
+
+def cases():
+    """Held bodies come to rest as a static problem, which has no damping; free ones and those that buckle in time."""
+    found = [Case(test, "", held, model, STATIC if held != "nothing" else {})
+             for test in range(1, 5) for held in ("nothing", HELD[test]) for model in scene_run.MODELS]
+    found += [Case(5, size, held, "linear", {}) for size in (SMALLER, PRINTED) for held in ("nothing", "both ends")]
+    found += [Case(5, SMALLER, held, "corotational", settings)
+              for held, settings in (("nothing, kinked", LONG), ("both ends, straight", STATIC), ("both ends, buckled", LONG))]
+    return sorted(found, key=lambda case: (case.test, len(case.size), case.held.partition(",")[0] != "nothing"))
+
+
+def run(supple, test, folder, settings):
+    return scene_run.run(supple, ROOT / "parameters" / "vein" / f"thesis-{test}.prm", folder, settings)
+
+
+def ends(folder, probes):
+    """Extremes of the volume ratio, cells inside out and mean displacement at the end of a run, as numbers."""
+    last = scene_run.last_row(folder / "history.csv")
+    return [last["min_volume_ratio"], last["max_volume_ratio"]], int(last["inverted"]), [probes["all.u" + axis] for axis in "xyz"]
+
+
+def mean_of(numbers):
+    return ", ".join(f"{number:.8f}" for number in numbers).replace("-0.00000000", "0.00000000")
+
+
+def come_to_rest(supple):
+    """Runs every case. @return {case: what ends() finds}, and the rows of the table of errors and seconds"""
+    found, rows = {}, []
+    for case in cases():
+        drawable = {"Output/Frames": "every", "Output/Every": 1000000}    # the first and the last
+        at_rest, probes = run(supple, case.test, case.folder(), {**case.stated(), **drawable, **case.settings})
+        moving, _ = run(supple, case.test, OUTPUT / "moving", {**case.stated(), "Time/Steps": 200, "Space/Estimate error": "never",
+                                                              "Time/Estimate error": "true"})
+        found[case] = ends(case.folder(), probes)
+        rows.append([case.name(), case.held, case.model, f"{at_rest['seconds']['run']:.2g}", errors.in_time(moving),
+                     errors.in_space(at_rest).partition(", where")[0]])
+        print(f"Done: {' '.join(map(str, rows[-1]))}", flush=True)
+    return found, rows
+
+
+def recipes(like):
+    """Runs the thesis's program. @return {test: places that are drawn}, and rows of the table"""
+    drawn = {test: thesis_point(test) for test in range(1, 5)}
+    rows = [[*told(f"test {test}, {SWEEPS} sweeps", places), f"{abs(places - thesis_point(test, SWEEPS - 1)).max():.3f}"]
+            for test, places in drawn.items()]
+    for size in SMALLER, PRINTED:
+        for step, places in enumerate(thesis_force(float(size), FRAMES), 1):
+            if step in (1, 10, FRAMES):
+                rows.append([*told(f"test 5, {size}, step {step}", places), ""])
+        drawn.setdefault(5, places)
+    for test, places in drawn.items():
+        leave(places, recipe_folder(test), like)
+    return drawn, rows
+
+
+def recipe_folder(test):
+    return OUTPUT / f"{test}-recipe"
+
+
+def rest_table(found, drawn):
+    """What the thesis's program draws, and below it where the body comes to rest."""
+    rows = []
+    for test, places in drawn.items():
+        ratios = volumes(places) / volumes(VERTICES)
+        rows.append([f"{test}, {SMALLER}" if test == 5 else test, "nothing", "the thesis's recipe", f"{ratios.min():.6f}",
+                     f"{ratios.max():.6f}", (ratios <= 0).sum(), mean_of((places - VERTICES).mean(axis=0))])
+        for case, (extremes, inverted, mean) in found.items():
+            if case.test == test:
+                rows.append([case.name(), case.held, case.model, *(f"{ratio:.6f}" for ratio in extremes), inverted, mean_of(mean)])
+    return rows
+
+
+def compare(found):
+    """Largest differences from the independent model of tests 1 and 2."""
+    rows = []
+    for row in read("thesis_rest.csv"):
+        (ratios, _, mean), = [ends for case, ends in found.items()
+                              if (str(case.test), case.held, case.model) == (row["test"], row["held"], row["model"])]
+        off = max(abs(a - float(row[name])) for a, name in zip(ratios, ("min_volume_ratio", "max_volume_ratio")))
+        far = max(abs(a - float(row["centroid_" + axis])) for a, axis in zip(mean, "xyz"))
+        rows.append([row["test"], row["held"], row["model"], f"{off:.1e}", f"{far:.1e}"])
+    return rows
+
+
+def try_readings(supple):
+    """Test 5 as its text, its table and its program may be read: the end of a run of 1000 steps, or where it fails."""
+    upper = f"if(z > -1e-9, {sine(SMALLER)}, 0)"
+    readings = [
+        ("along z, damping 0.2", SMALLER, "nothing", "linear", {"Loads/Nodal force": along_axis(SMALLER), "Damping/Viscous": 0.2}),
+        ("along x, y and z", SMALLER, "both ends", "linear", {"Loads/Nodal force": "; ".join([sine(SMALLER)] * 3)}),
+        ("along x, y and z, upper half", SMALLER, "both ends", "linear", {"Loads/Nodal force": "; ".join([upper] * 3)}),
+        ("along x, y and z", SMALLER, "nothing", "corotational", {"Loads/Nodal force": "; ".join([sine(SMALLER)] * 3)}),
+        ("along z", PRINTED, "nothing", "corotational", {}),
+        ("along z", PRINTED, "both ends", "corotational", {}),
+        ("along z, implicit backward euler", PRINTED, "nothing", "corotational", {"Time/Method": "implicit backward euler"}),
+    ]
+    rows = []
+    for reading, size, held, model, settings in readings:
+        folder = OUTPUT / "reading"
+        summary, _ = run(supple, 5, folder, {"Corotation/Rotation": scene_run.MODELS[model], **held_by(held), **settings,
+                                             "Space/Estimate error": "never"})
+        last = summary["last"]
+        rows.append([reading, size, held, model, f"{last['time']:.3g}", f"{last['min_volume_ratio']:.3g}", f"{last['max_volume_ratio']:.3g}",
+                     last["inverted"], f"{last['kinetic']:.1e}", f"{summary['extremes']['energy_gained']:.1e}"])
+    return rows
+
+
+def draw(test, found):
+    """The recipe's body and each one at rest, one below the other, lying with the top to the right."""
+    shown = [case for case in found if case.test == test and case.size != PRINTED and case.held != "both ends, straight"]
+    names = [f"{case.model}, {'free' if case.held.startswith('nothing') else 'held'}" for case in shown]
     low, high = RANGE[test]
     picture = ROOT / "doc" / "pictures" / f"vein-thesis-{test}.png"
-    subprocess.run([sys.executable, str(ROOT / "scripts" / "render.py"), str(folders[0]), str(picture),
-                    "--below", *map(str, folders[1:]), "--names", *names, "--times", "1e9", "--instants", "",
-                    *LOOK.get(test, ("--up", "1", "0", "0", "--camera", "0", "1", "0.35")), "--field", "volume_ratio",
-                    "--range", str(low), str(high), "--width", "640"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([sys.executable, str(ROOT / "scripts" / "render.py"), str(recipe_folder(test)), str(picture),
+                    "--below", *(str(case.folder()) for case in shown), "--names", "the thesis's recipe", *names,
+                    "--times", "1e9", "--instants", "", *LOOK.get(test, ("--up", "1", "0", "0", "--camera", "0", "1", "0.35")),
+                    "--field", "volume_ratio", "--range", str(low), str(high), "--width", "640"], check=True, stdout=subprocess.DEVNULL)
 
 
 def told(name, places):
     """What the thesis's recipe does to the body."""
     far = numpy.linalg.norm(places - VERTICES, axis=1)
     ratios = volumes(places) / volumes(VERTICES)
-    return (f"| {name} | {ratios.min():.3f} | {ratios.max():.3f} | {(ratios <= 0).sum()} | "
-            f"{(far > 0.01 * far.max()).sum()} | {far.mean():.5f} | {far.max():.4f} |")
+    return [name, f"{ratios.min():.3f}", f"{ratios.max():.3f}", (ratios <= 0).sum(), (far > 0.01 * far.max()).sum(),
+            f"{far.mean():.5f}", f"{far.max():.4f}"]
 
 
 def main():
     supple = sys.argv[1]
-    print("| test | held | model | smallest volume ratio | largest | cells inside out | mean displacement x, y, z | seconds | error in "
-          "time | in space |\n" + "|---" * 10 + "|")
-    drawn = {test: compute(supple, test) for test in HELD}
-    print("\n| thesis's recipe | smallest volume ratio | largest | cells inside out | vertices that move by 1 % of the farthest | mean "
-          "distance | largest |\n" + "|---" * 7 + "|")
-    for test in range(1, 5):
-        places = thesis_point(test)
-        print(told(f"test {test}, {SWEEPS} sweeps", places))
-        leave(places, OUTPUT / f"{test}-thesis", drawn[test][0][0])
-    for size in 1000, 10000:
-        for step, places in enumerate(thesis_force(size, FRAMES), 1):
-            if step in (1, 10, FRAMES):
-                print(told(f"test 5, {size}, {step} steps", places), flush=True)
-        if size == 1000:
-            leave(places, OUTPUT / "5-thesis", drawn[5][0][0])
-    for test, bodies in drawn.items():
-        draw(test, [(OUTPUT / f"{test}-thesis", "the thesis's recipe")] + bodies)
+    found, seconds = come_to_rest(supple)
+    drawn, recipe = recipes(next(iter(found)).folder())
+    pages.put_table("vein.md", ["test", "held", "model", "smallest volume ratio", "largest", "cells inside out",
+                                "mean displacement x, y, z [m]"], rest_table(found, drawn))
+    pages.put_table("vein.md", ["test", "held", "model", "volume ratios differ by", "mean displacements by [m]"], compare(found))
+    pages.put_table("vein.md", ["test 5, force", "size", "held", "model", "until [s]", "smallest volume ratio", "largest",
+                                "cells inside out", "energy of motion [J]", "energy added by the steps [J]"], try_readings(supple))
+    pages.put_table("vein.md", ["the thesis's recipe", "smallest volume ratio", "largest", "cells inside out",
+                                "vertices that move by 1 % of the farthest", "mean distance [m]", "largest", "the last sweep moves by [m]"], recipe)
+    pages.put_table("vein.md", ["test", "held", "model", "seconds", "error in time", "error in space"], seconds)
+    for test in HELD:
+        draw(test, found)
 
 
 if __name__ == "__main__":

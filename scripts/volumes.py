@@ -27,16 +27,21 @@ def volumes(folder):
     return numpy.array(times), numpy.array(rows)
 
 
-def draw(axes, times, ratios, name):
+def draw_cells(axes, times, ratios):
+    """A thin line for each cell."""
     lines = numpy.stack(numpy.broadcast_arrays(times[:, None], ratios), axis=2).transpose(1, 0, 2)
     axes.add_collection(matplotlib.collections.LineCollection(lines, colors="#5b7fa6", linewidths=0.4, alpha=0.35))
+    axes.set_xlim(times[0], times[-1])
+    axes.grid(alpha=0.3)
+
+
+def draw(axes, times, ratios, name):
+    draw_cells(axes, times, ratios)
     axes.plot(times, ratios.max(axis=1), color="#b3192b", linewidth=1.8)
     axes.plot(times, ratios.min(axis=1), color="#1f3a7a", linewidth=1.8)
     axes.axhline(1, color="black", linewidth=0.6)
     axes.set_title(f"{name}: {ratios.min():.3f} to {ratios.max():.3f}")
     axes.set_xlabel("time in s")
-    axes.set_xlim(times[0], times[-1])
-    axes.grid(alpha=0.3)
 
 
 def save(figure, file):
