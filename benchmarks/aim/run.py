@@ -26,7 +26,9 @@ SCENES = {
                                 "Loads/Body force = 0; 0; -2e7*sin(pi*t/1.4)^2"]),
     "vein": ("vein/test-2", ["Probes/Points = v330: 0.003, 0, 0.00119"]),
     "pulse": ("vein/pulse", ["Time/Steps = 160"]),
-    "needle": ("skin/needle", []),
+    "needle": ("skin/needle-plane", ["Time/Problem = dynamic", "Time/Step = 0.005", "Time/Steps = 20",
+                                     "Motion/Displacement = free; -0.0018*sin(pi*min(t, 0.1)/0.2)^2; free",
+                                     "Probes/Points = needle: 0, 0, 0; beside: 0.0015, 0, 0"]),
     "mushroom": ("mushroom/mushroom", ["Time/Steps = 20"]),  # a mesh from a file
 }
 # Of these the error in space is told too.
@@ -34,7 +36,7 @@ MESHES = {
     "bar, static": ("bar/static", []),
     "bar, swings": ("bar/small-linear", [SWING, LIFTED, "Probes/Points = tip: 2, 0, 2"]),
     "cylinder": ("validation/thick-cylinder", []),
-    "needle": ("skin/needle", ["Probes/Points = beside: 0.0015, 0, 0"]),
+    "needle": ("skin/needle-axisymmetric", ["Probes/Points = beside: 0.0015, 0, 0"]),
 }
 
 
@@ -100,9 +102,10 @@ def with_mesh(arguments, name):
                 "--output", folder / "aim")
     entries = found(text, r"(?s:.*)Entries for the scene: (.*)").split(" | ")
     finer = [re.sub(r"=(.*)", lambda counts: "=" + ", ".join(str(2 * int(n)) for n in counts[1].split(",")), entry)
-             if entry.split("=")[0] in ("Mesh/Box cubes", "Mesh/Cylinder sectors", "Mesh/Cylinder layers") else entry for entry in entries]
+             if entry.split("=")[0] in ("Mesh/Box cubes", "Mesh/Cylinder sectors", "Mesh/Cylinder layers", "Mesh/Rectangle squares") else entry for entry in entries]
     finer = [re.sub(r"rings=(\d+)", lambda n: f"rings={2 * (int(n[1]) - 1) + 1}", entry) for entry in finer]
     finer = [entry for entry in finer if not entry.startswith("Mesh/Order")] + ["Mesh/Order=2"]
+    settings = [setting for setting in settings if setting.split(" = ")[0] not in {entry.split("=")[0] for entry in entries}]
     run = tip_of(arguments.program, scene, settings + entries, folder / "run")
     right = tip_of(arguments.program, scene, settings + finer, folder / "right")
     return [name, found(text, r"soonest: (.*?), \d+ cells"), found(text, r"(\d+) cells"), found(text, r"cells, (\S+) s"),

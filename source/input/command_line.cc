@@ -19,7 +19,7 @@ namespace Supple
            "    --output DIR                    where results go (default: output/ and the scene's "
            "name)\n"
            "    --quiet                         say nothing but errors\n"
-           "    --aim \"1 %\"                     find the soonest run with an error in time below "
+           "    --aim \"1 %\"                     find the soonest run with an error below "
            "this\n"
            "  supple STUDY.prm                  run many variants of a scene and compare them\n"
            "  supple IDENTIFICATION.prm         fit two layers of skin to measurements\n"

@@ -30,10 +30,6 @@ namespace Supple
     /** Below, round-off and the tolerances of linear solvers count. */
     constexpr double smallest_tolerance = 1e-9;
 
-    /** A run that takes this many times as long as the best one is stopped; one that is expected to
-     * is not begun. */
-    constexpr double patience = 1.3;
-
     /** What the search may take, over the run time of the best run; or some seconds, for where runs
      * take milliseconds it is their set-up that counts. */
     constexpr double longest_search = 8., shortest_search = 3.;
@@ -58,7 +54,7 @@ namespace Supple
     , quantities(parameters, plan)
     , runner(quantities.needed(), communicator)
     , whole_aim(parameters.relative_aim())
-    , aim(plan.aims_at_mesh ? share_of_time * whole_aim : whole_aim)
+    , aim(plan.aims_at_mesh && !is_stationary() ? share_of_time * whole_aim : whole_aim)
     , best_seconds(infinity)
     , list(candidates())
   {
@@ -168,14 +164,15 @@ namespace Supple
     output.say("Supple " SUPPLE_VERSION ", the soonest run of " + plan.base.scene_name +
                " with an error of " + percent(whole_aim));
     std::vector<std::string> sentences;
-    if (!is_stationary())
+    try
       {
-        search_in_time(interrupt);
-        sentences = result(*winner());
+        sentences = search_all(interrupt);
       }
-    if (plan.aims_at_mesh)
-      for (const std::string &sentence : search_mesh())
-        sentences.push_back(sentence);
+    catch (const InterruptedError &)
+      {
+        throw InterruptedError("Interrupted; the runs so far are in " + output.folder +
+                               "/study.csv.");
+      }
     sentences.push_back("The search took " + readable_duration(stopwatch.seconds()) +
                         (reference_seconds > 0.
                            ? ", of which the reference " + readable_duration(reference_seconds)
@@ -188,13 +185,31 @@ namespace Supple
   }
 
 
+  std::vector<std::string>
+  AimSearch::search_all(const InterruptGuard &interrupt)
+  {
+    std::vector<std::string> sentences;
+    if (!is_stationary())
+      {
+        search_in_time(interrupt);
+        sentences = result(*winner());
+      }
+    if (plan.aims_at_mesh)
+      for (const std::string &sentence : search_mesh(interrupt))
+        sentences.push_back(sentence);
+    return sentences;
+  }
+
+
   void
   AimSearch::search_in_time(const InterruptGuard &interrupt)
   {
     find_reference();
-    reference_seconds          = stopwatch.seconds();
+    reference_seconds = dealii::Utilities::MPI::max(stopwatch.seconds(), output.communicator);
     const auto budget_is_spent = [this] {
-      return stopwatch.seconds() - reference_seconds >
+      const double seconds =
+        dealii::Utilities::MPI::max(stopwatch.seconds(), output.communicator); // one answer
+      return seconds - reference_seconds >
              std::max(shortest_search, longest_search * best_seconds);
     };
     for (Candidate &candidate : list)
@@ -208,9 +223,7 @@ namespace Supple
             continue;
           }
         search(candidate);
-        if (interrupt.requested(output.communicator))
-          throw InterruptedError("Interrupted; the runs so far are in " + output.folder +
-                                 "/study.csv.");
+        stop_if(interrupt);
       }
     if (!winner())
       {
@@ -232,7 +245,7 @@ namespace Supple
   AimSearch::good_in_time() const
   {
     if (is_stationary())
-      return {{"", {}}};
+      return {{{}, 0., 1.}};
     std::vector<const Candidate *> good;
     for (const Candidate &candidate : list)
       if (best_trial(candidate))
@@ -242,23 +255,54 @@ namespace Supple
     });
     std::vector<MeshSearch::InTime> methods;
     for (const Candidate *candidate : good)
-      methods.push_back({best_row(*candidate).run.label(), best_row(*candidate).run.overrides});
+      methods.push_back({best_row(*candidate).run,
+                         best_trial(*candidate)->error + reference_error,
+                         candidate->curve.price_of_half()});
     return methods;
   }
 
 
-  std::vector<std::string>
-  AimSearch::search_mesh()
+  void
+  AimSearch::stop_if(const InterruptGuard &interrupt) const
   {
-    const double in_time = is_stationary() ? 0. : best_trial(*winner())->error + reference_error;
-    MeshSearch search(plan, quantities, runner, output, good_in_time());
-    const auto mesh = search.search(whole_aim - in_time, in_time);
-    if (output.root)
-      write_study(output.folder + "/meshes", search.table());
+    if (interrupt.requested(output.communicator))
+      throw InterruptedError("Interrupted");
+  }
+
+
+  std::vector<std::string>
+  AimSearch::search_mesh(const InterruptGuard &interrupt)
+  {
+    const auto after_run = [&](const StudyTable &meshes) {
+      const StudyRow &row = meshes.rows.back();
+      output.say(meshes.line(row) + (row.error_in_space < infinity
+                                       ? " (in space " + percent(row.error_in_space) + ")"
+                                       : std::string()));
+      if (is_stationary())
+        table.rows = meshes.rows;
+      else if (output.root)
+        write_study(output.folder + "/meshes", meshes);
+      write();
+      stop_if(interrupt);
+    };
+    MeshSearch search(plan, quantities, runner, good_in_time(), whole_aim, after_run);
+    const auto mesh = search.search();
     if (!mesh)
       throw ComputationError("No mesh meets the aim of " + percent(whole_aim) +
-                             ". What was tried is in " + output.folder + "/meshes/study.md.");
+                             ". What was tried is in " + output.folder +
+                             (is_stationary() ? "" : "/meshes") + "/study.md.");
+    if (mesh->error == 0.)
+      refuse_rest();
     return result(*mesh);
+  }
+
+
+  void
+  AimSearch::refuse_rest() const
+  {
+    throw ComputationError(parameters.place("Aim") + " = " + percent(whole_aim) +
+                           ": two runs that should differ are the same: nothing moves of what the "
+                           "aim is of, so that no error can be told.");
   }
 
 
@@ -277,7 +321,7 @@ namespace Supple
   {
     const Candidate method{
       {reference_method, reference_method, {}, ""}, true, 5, AimCurve(5, true), {}};
-    std::optional<StudyRecord> coarse;
+    std::vector<std::pair<double, StudyRecord>> runs; // with their tolerances
     double distance  = nothing;
     double tolerance = std::min(1e-3, 0.1 * aim);
     for (; tolerance > smallest_tolerance; tolerance *= 0.1)
@@ -286,11 +330,13 @@ namespace Supple
         const StudyRecord record = runner.record(plan.parameters(run), "");
         if (record.status != StudyRecord::Status::done)
           throw ComputationError("The reference (" + run.label() + ") failed: " + record.reason);
-        if (coarse)
-          distance = error_of(*coarse, record);
+        if (!runs.empty())
+          distance = error_of(runs.back().second, record);
+        if (distance == 0.)
+          refuse_rest();
         output.say("  reference: " + run.label() + ", " + digits(record.seconds, 3) + " s" +
-                   (coarse ? "; the one before is " + percent(distance) + " from it" : ""));
-        coarse = record;
+                   (!runs.empty() ? "; the one before is " + percent(distance) + " from it" : ""));
+        runs.emplace_back(tolerance, record);
         if (distance <= largest_distance * aim)
           break;
         // of a distance that is far off a tenth of the tolerance would not be enough
@@ -299,13 +345,32 @@ namespace Supple
       }
     if (!(distance <= largest_distance * aim))
       refuse_aim(distance);
-    reference = coarse;
+    reference = runs.back().second;
+    runs.pop_back();
     // ten times the tolerance is 10^(p / (p + 1)) times the error
     reference_error       = distance / (std::pow(10., 5. / 6.) - 1.);
     table.reference_error = reference_error;
     table.facts.push_back("Reference: " + planned(method, tolerance).label() +
                           "; its own error is about " + percent(reference_error) +
                           ", by its distance from the one with ten times the tolerance.");
+    for (const auto &[its_tolerance, record] : runs)
+      take_from_reference(its_tolerance, record);
+  }
+
+
+  bool
+  AimSearch::is_of_reference(const Candidate &candidate) const
+  {
+    return candidate.method.title == reference_method && candidate.variable_steps;
+  }
+
+
+  void
+  AimSearch::take_from_reference(const double tolerance, const StudyRecord &record)
+  {
+    for (Candidate &candidate : list)
+      if (is_of_reference(candidate))
+        add_trial(candidate, tolerance, planned(candidate, tolerance), record);
   }
 
 
@@ -326,10 +391,10 @@ namespace Supple
   double
   AimSearch::first_guess(const Candidate &candidate) const
   {
-    // from the nearest order that is known
+    // from the nearest order that is known; tolerances of the reference are too tight to begin with
     const Candidate *known = nullptr;
     for (const Candidate &other : list)
-      if (other.curve.best(aim) && (candidate.variable_steps == other.variable_steps || !known ||
+      if (!(candidate.variable_steps && is_of_reference(other)) && other.curve.best(aim) && (candidate.variable_steps == other.variable_steps || !known ||
                                     other.method.name == candidate.method.name))
         known = &other;
     if (candidate.variable_steps)
@@ -352,7 +417,9 @@ namespace Supple
   void
   AimSearch::search(Candidate &candidate)
   {
-    std::optional<double> x = first_guess(candidate);
+    std::optional<double> x = candidate.curve.all().empty()
+                                ? first_guess(candidate)
+                                : candidate.curve.next(aim - reference_error);
     while (x && try_run(candidate, *x))
       x = candidate.curve.next(aim - reference_error);
   }
@@ -361,12 +428,11 @@ namespace Supple
   bool
   AimSearch::try_run(Candidate &candidate, const double x)
   {
-    StudyRow row;
-    row.run = planned(candidate, x);
+    const PlannedRun run = planned(candidate, x);
     Parameters scene;
     try
       {
-        scene = plan.parameters(row.run);
+        scene = plan.parameters(run);
       }
     catch (const InputError &)
       {
@@ -375,14 +441,32 @@ namespace Supple
     StudyRecord record;
     try
       {
-        record = runner.record(scene, "", patience * best_seconds);
+        record = runner.record(scene, "", AimCurve::patience * best_seconds);
       }
     catch (const InputError &error) // such as an explicit step that is not stable
       {
         record.status = StudyRecord::Status::refused;
         record.reason = error.what();
       }
+    add_trial(candidate, x, run, record);
+    output.say(table.line(table.rows.back()));
+    write();
+    if (record.stopped)
+      return false;
+    const double expected = candidate.curve.expected_seconds(aim);
+    return !(expected > AimCurve::patience * best_seconds);
+  }
+
+
+  void
+  AimSearch::add_trial(Candidate &candidate,
+                       const double x,
+                       const PlannedRun &run,
+                       const StudyRecord &record)
+  {
     const bool done = record.status == StudyRecord::Status::done;
+    StudyRow row;
+    row.run = run;
     row.take(record);
     row.size = record.steps > 0 ? record.end / record.steps : 0.;
     if (done)
@@ -392,15 +476,8 @@ namespace Supple
     candidate.rows.push_back(table.rows.size());
     table.add(row);
     space_errors.push_back(record.space_error);
-    output.say(table.line(table.rows.back()));
-    write();
-
     if (error + reference_error <= aim)
       best_seconds = std::min(best_seconds, record.seconds);
-    if (record.stopped)
-      return false;
-    const double expected = candidate.curve.expected_seconds(aim);
-    return !(expected > patience * best_seconds);
   }
 
 
@@ -473,17 +550,18 @@ namespace Supple
   std::vector<std::string>
   AimSearch::result(const MeshSearch::Found &mesh) const
   {
-    const double dimension = plan.base.mesh.shape == MeshParameters::Shape::rectangle ? 2. : 3.;
-    const double price     = std::pow(2., dimension / mesh.order) *
-                         (is_stationary() ? 1. : winner()->curve.price_of_half());
     return {percent(whole_aim) + (is_stationary() ? "" : " in space and time") + " soonest: " +
               mesh.run.label() + ", " + std::to_string(mesh.n_cells) + " cells, " +
               digits(mesh.seconds, 3) + " s.",
-            "Error in space " + percent(mesh.error) + ", which falls with the power " +
-              digits(mesh.order, 2) + " of the size of the cells" +
-              (mesh.order_is_known ? ", as three meshes tell."
-                                   : " at least; two meshes do not tell the order."),
-            "Half the error takes about " + digits(price, 3) + " times as long.",
+            "Error in space " + percent(mesh.error) +
+              (mesh.order_is_known ? ", which falls with the power " + digits(mesh.order, 2) +
+                                       " of the size of the cells, as three meshes tell"
+                                   : ", taken to fall with the power " + digits(mesh.order, 2) +
+                                       " of the size of the cells, and perhaps falling sooner") +
+              (is_stationary() ? std::string(".")
+                               : "; in time " + percent(mesh.error_in_time) + "."),
+            "Half the error takes about " + digits(mesh.price_of_half, 3) + " times as long" +
+              (mesh.order_is_known ? "." : " at most."),
             entries_of(mesh.run)};
   }
 

@@ -15,11 +15,11 @@ namespace Supple
     /** Into how many parts edges are cut. */
     constexpr unsigned int parts[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32};
 
-    /** A mesh on which a run would take this many times as long as the best one is not tried. */
-    constexpr double patience = 1.3;
-
     /** What a run takes that is not begun any more [s], if no other one has met the aim. */
     constexpr double longest_run = 3600.;
+
+    /** What all runs may take, over the best one, or some seconds. */
+    constexpr double longest_search = 10., shortest_search = 3.;
 
     constexpr double nothing  = std::numeric_limits<double>::quiet_NaN();
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -38,6 +38,17 @@ namespace Supple
     {
       return std::string(order_of_cells == 1 ? "linear" : "quadratic") + " cells, edges in " +
              std::to_string(n_parts);
+    }
+
+
+    /** Not a number where there is none. */
+    double
+    largest_of(const std::vector<double> &numbers)
+    {
+      double largest = nothing;
+      for (const double number : numbers)
+        largest = std::isnan(number) || largest > number ? largest : number;
+      return largest;
     }
   } // namespace
 
@@ -59,7 +70,8 @@ namespace Supple
   bool
   MeshLadder::order_is_known() const
   {
-    return steps.size() > 2;
+    const double p = order();
+    return steps.size() > 2 && p > lowest && p < highest;
   }
 
 
@@ -67,7 +79,7 @@ namespace Supple
   double
   MeshLadder::order() const
   {
-    if (!order_is_known())
+    if (steps.size() < 3)
       return lowest;
     const Step *const last = &steps.back();
     const double wanted    = last[-1].distance / last[0].distance;
@@ -75,6 +87,10 @@ namespace Supple
       return (std::pow(last[-2].size, p) - std::pow(last[-1].size, p)) /
              (std::pow(last[-1].size, p) - std::pow(last[0].size, p));
     };
+    if (wanted <= ratio(lowest))
+      return lowest;
+    if (wanted >= ratio(highest))
+      return highest;
     double low = lowest, high = highest;
     for (unsigned int i = 0; i < 50; ++i)
       {
@@ -86,12 +102,28 @@ namespace Supple
 
 
   double
+  MeshLadder::error_over_distance() const
+  {
+    const bool converges = steps.size() == 2 || order() > lowest;
+    if (steps.size() < 2 || !converges)
+      return infinity;
+    return 1. / (std::pow(steps[steps.size() - 2].size / steps.back().size, order()) - 1.);
+  }
+
+
+  double
   MeshLadder::error() const
   {
-    if (steps.size() < 2)
-      return infinity;
-    const Step *const last = &steps.back();
-    return last->distance / (std::pow(last[-1].size / last->size, order()) - 1.);
+    return steps.size() < 2 ? infinity : steps.back().distance * error_over_distance();
+  }
+
+
+  bool
+  MeshLadder::diverges() const
+  {
+    const std::size_t n = steps.size();
+    return n > 3 && steps[n - 1].distance > steps[n - 2].distance &&
+           steps[n - 2].distance > steps[n - 3].distance;
   }
 
 
@@ -105,17 +137,20 @@ namespace Supple
   MeshSearch::MeshSearch(const StudyPlan &plan,
                          const StudyQuantities &quantities,
                          const StudyRunner &runner,
-                         const TaskOutput &output,
-                         const std::vector<InTime> &in_time)
+                         const std::vector<InTime> &in_time,
+                         const double aim,
+                         const std::function<void(const StudyTable &)> &after_run)
     : plan(plan)
     , quantities(quantities)
     , runner(runner)
-    , output(output)
     , in_time(in_time)
+    , aim(aim)
+    , after_run(after_run)
   {
     found.kind        = StudyPlan::Kind::methods;
-    found.name        = plan.base.scene_name + " on finer meshes";
+    found.name        = plan.base.scene_name;
     found.error_names = quantities.error_names();
+    found.targets     = {aim};
     found.facts       = {"The scene's own mesh with its edges cut into parts. Error in space: by the "
                          "distance from the results on the mesh before (Richardson), where three "
                          "meshes tell with which order it falls, and with a low order where they do "
@@ -126,15 +161,16 @@ namespace Supple
   PlannedRun
   MeshSearch::planned(const unsigned int order_of_cells,
                       const unsigned int n_parts,
-                      const InTime &method) const
+                      const PlannedRun &method) const
   {
-    PlannedRun run;
-    run.level = mesh_label(order_of_cells, n_parts);
-    run.curve = order_of_cells == 1 ? "linear cells" : "quadratic cells";
-    run.name  = method.label;
+    PlannedRun run = method;
+    run.level      = mesh_label(order_of_cells, n_parts);
+    run.curve      = order_of_cells == 1 ? "linear cells" : "quadratic cells";
+    run.overrides.clear();
     for (const auto &[entry, value] : entries_of_finer(plan.base.mesh, n_parts))
       run.overrides.push_back({entry + "=" + value, "the aim"});
-    run.overrides.push_back({"Mesh/Order=" + std::to_string(order_of_cells), "the aim"});
+    if (order_of_cells != plan.base.mesh.order)
+      run.overrides.push_back({"Mesh/Order=" + std::to_string(order_of_cells), "the aim"});
     run.overrides.insert(run.overrides.end(), method.overrides.begin(), method.overrides.end());
     return run;
   }
@@ -143,15 +179,19 @@ namespace Supple
   std::optional<StudyRecord>
   MeshSearch::record(const unsigned int order_of_cells,
                      const unsigned int n_parts,
-                     StudyRow &row) const
+                     StudyRow &row,
+                     const InTime *&method) const
   {
-    for (const InTime &method : in_time)
+    for (const InTime &candidate : in_time)
       {
-        row.run = planned(order_of_cells, n_parts, method);
+        method  = &candidate;
+        row.run = planned(order_of_cells, n_parts, candidate.run);
         try
           {
             const StudyRecord record =
-              runner.record(plan.parameters(row.run), "", best ? patience * best->seconds : infinity);
+              runner.record(plan.parameters(row.run),
+                            "",
+                            best ? AimCurve::patience * best->seconds : infinity);
             row.take(record);
             if (record.status == StudyRecord::Status::done)
               return record;
@@ -166,87 +206,124 @@ namespace Supple
   }
 
 
-  unsigned int
-  MeshSearch::next(const unsigned int n_parts,
-                   const MeshLadder &ladder,
-                   const double aim,
-                   const StudyRow &last) const
+  void
+  MeshSearch::choose_next(Climb &climb) const
   {
-    const unsigned int dimension = plan.base.mesh.shape == MeshParameters::Shape::rectangle ? 2 : 3;
-    const double wanted = std::isfinite(ladder.error()) ? ladder.parts_for(aim) : 2. * n_parts;
-    unsigned int result = 0;
+    const double wanted = std::isfinite(climb.ladder.error()) ? climb.ladder.parts_for(aim) :
+                                                                2. * climb.n_parts;
+    climb.next = 0;
+    if (climb.ladder.diverges())
+      return;
     for (const unsigned int n : parts)
-      if (n > n_parts && n <= 2 * n_parts && can_be_cut(plan.base.mesh, n))
+      if (n > climb.n_parts && n <= 2 * climb.n_parts && can_be_cut(plan.base.mesh, n))
         {
-          result = n;
+          climb.next = n;
           if (n >= wanted)
             break;
         }
-    if (result == 0)
-      return 0;
-    const double growth   = std::pow(double(result) / n_parts, dimension);
-    const double expected = last.seconds * growth;
-    const double longest  = best ? patience * best->seconds : longest_run;
-    if (expected > longest || growth * last.n_cells > plan.base.mesh.refinement.most_cells)
-      return 0;
-    return result;
+    const double growth = std::pow(double(climb.next) / climb.n_parts, climb.dimension);
+    climb.expected      = climb.seconds * growth;
+    if (growth * climb.n_cells > plan.base.mesh.refinement.most_cells)
+      climb.next = 0;
+  }
+
+
+  std::vector<double>
+  MeshSearch::errors(const MeshLadder &ladder,
+                     const std::vector<double> &distances,
+                     const double error_in_time) const
+  {
+    std::vector<double> errors(found.error_names.size(), nothing);
+    for (std::size_t i = 0; i < distances.size(); ++i)
+      errors[i] = distances[i] * ladder.error_over_distance() + error_in_time;
+    return errors;
+  }
+
+
+  double
+  MeshSearch::dimension_of(const Climb &climb,
+                           const unsigned int n_parts,
+                           const unsigned int n_cells)
+  {
+    return std::round(std::log(double(n_cells) / climb.n_cells) /
+                      std::log(double(n_parts) / climb.n_parts));
   }
 
 
   void
-  MeshSearch::climb(const unsigned int order_of_cells, const double aim, const double error_in_time)
+  MeshSearch::step(Climb &climb)
   {
-    MeshLadder ladder = ladder_of(order_of_cells);
-    std::optional<StudyRecord> before;
-    for (unsigned int n_parts = 1; n_parts > 0;)
+    const unsigned int n_parts = climb.next;
+    climb.next                 = 0;
+    StudyRow row;
+    const InTime *method                 = nullptr;
+    const std::optional<StudyRecord> now = record(climb.order_of_cells, n_parts, row, method);
+    if (!now)
       {
-        StudyRow row;
-        const std::optional<StudyRecord> now = record(order_of_cells, n_parts, row);
-        if (now)
-          {
-            double distance = nothing;
-            if (before)
-              for (const double error : quantities.errors(*before, &*now))
-                distance = std::isnan(distance) ? error : std::max(distance, error);
-            ladder.add(n_parts, distance);
-            row.errors.assign(found.error_names.size(), nothing);
-            if (before)
-              {
-                row.error_in_space = ladder.error();
-                row.error_in_time  = error_in_time;
-                row.errors.front() = row.error_in_space + error_in_time;
-              }
-          }
-        found.add(row);
-        output.say(found.line(found.rows.back()) +
-                   (row.error_in_space < infinity
-                      ? " (in space " + percent(row.error_in_space) + ")"
-                      : std::string()));
-        if (!now)
-          return;
-        const double error = ladder.error();
-        if (error <= aim)
-          {
-            if (!best || row.seconds < best->seconds)
-              best = Found{row.run,
-                           error,
-                           ladder.order(),
-                           ladder.order_is_known(),
-                           row.seconds,
-                           row.n_cells};
-            return;
-          }
-        before  = now;
-        n_parts = next(n_parts, ladder, aim, row);
+        const bool other_cells = n_parts == 1 && climb.order_of_cells != plan.base.mesh.order;
+        if (!other_cells || row.status != StudyRecord::Status::refused)
+          found.add(row);
+        return;
       }
+    std::vector<double> distances;
+    if (climb.before)
+      distances = quantities.errors(*climb.before, &*now);
+    climb.ladder.add(n_parts, largest_of(distances));
+    row.errors = errors(climb.ladder, distances, method->error);
+    if (climb.before)
+      {
+        climb.dimension    = dimension_of(climb, n_parts, now->n_cells);
+        row.error_in_space = climb.ladder.error();
+        row.error_in_time  = method->error;
+      }
+    climb.before  = now;
+    climb.n_parts = n_parts;
+    climb.n_cells = now->n_cells;
+    climb.seconds = now->seconds;
+    seconds += now->seconds;
+    found.add(row);
+    if (!(climb.ladder.error() + method->error <= aim))
+      choose_next(climb);
+    else if (!best || now->seconds < best->seconds)
+      best = Found{row.run,
+                   climb.ladder.error(),
+                   climb.ladder.order(),
+                   climb.ladder.order_is_known(),
+                   method->error,
+                   std::pow(2., climb.dimension / climb.ladder.order()) * method->price_of_half,
+                   now->seconds,
+                   now->n_cells};
+  }
+
+
+  bool
+  MeshSearch::may_win(const Climb &climb) const
+  {
+    if (climb.next == 0)
+      return false;
+    if (!best)
+      return climb.expected < longest_run;
+    return climb.expected < AimCurve::patience * best->seconds &&
+           seconds < std::max(shortest_search, longest_search * best->seconds);
   }
 
 
   std::optional<MeshSearch::Found>
-  MeshSearch::search(const double aim, const double error_in_time)
+  MeshSearch::search()
   {
-    for (const unsigned int order_of_cells : {2u, 1u}) // from the one that most often wins on
-      climb(order_of_cells, aim, error_in_time);
-    return best;
+    std::vector<Climb> climbs;
+    for (const unsigned int order_of_cells : {2u, 1u})
+      climbs.push_back({order_of_cells, ladder_of(order_of_cells)});
+    for (;;)
+      {
+        Climb *quickest = nullptr;
+        for (Climb &climb : climbs)
+          if (may_win(climb) && (!quickest || climb.expected < quickest->expected))
+            quickest = &climb;
+        if (!quickest)
+          return best;
+        step(*quickest);
+        after_run(found);
+      }
   }
 } // namespace Supple

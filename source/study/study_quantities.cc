@@ -92,6 +92,19 @@ namespace Supple
         return error == 0. ? 0. : nothing;
       return error / size;
     }
+
+
+    bool
+    is_physical(const std::string &column)
+    {
+      return std::set<std::string>{"step",
+                                   "time",
+                                   "dt",
+                                   "seconds",
+                                   "newton_iterations",
+                                   "linear_iterations"}
+               .count(column) == 0;
+    }
   } // namespace
 
 
@@ -138,13 +151,16 @@ namespace Supple
         if (name == "probes" && points.empty())
           throw InputError(plan.changed_by_hand({"Probes/Points"}) + place +
                            ": the scene follows no point (Probes/Points); take " +
-                           (plan.aims_at_mesh ? "a column." : "'final field' or energy."));
+                           (plan.aims_at_mesh ? "energy or a column." : "'final field' or energy."));
         if (name == "final field" && (plan.aims_at_mesh || !plan.level_references.empty()))
           throw InputError(place +
                            ": on another mesh there are other vertices than those of the "
                            "final field; take probes, energy or a column.");
         if (name != "probes" && name != "final field" && name != "energy")
           check_column(name, place);
+        if (!study.aim.empty() && !is_physical(name))
+          throw InputError(place + ": " + name +
+                           " tells of the computation and not of the body; it has no error.");
         quantities.push_back(name);
       }
     if (quantities.empty())

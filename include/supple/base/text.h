@@ -3,6 +3,7 @@
 
 #include <supple/base/error.h>
 
+#include <cstdlib>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -17,10 +18,15 @@ namespace Supple
   inline std::string
   digits(const double number, const unsigned int n)
   {
-    std::ostringstream text;
-    text.precision(n);
-    text << number;
-    return text.str();
+    // 15 digits are often all that it takes
+    for (unsigned int precision = n == all_digits ? 15 : n;; ++precision)
+      {
+        std::ostringstream text;
+        text.precision(precision);
+        text << number;
+        if (precision == n || std::strtod(text.str().c_str(), nullptr) == number)
+          return text.str();
+      }
   }
 
 

@@ -18,8 +18,7 @@ namespace Supple
   class BlockFactorization
   {
   public:
-    /** Finds the order of the nodes and the pattern of L. @param pattern of A, on one process; it
-     * must outlive the factorization */
+    /** Finds the order of the nodes and the pattern of L. @param pattern of A, on one process */
     explicit BlockFactorization(const SymmetricPattern &pattern);
 
     /** @return false if A is not positive definite */

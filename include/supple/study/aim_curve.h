@@ -18,6 +18,10 @@ namespace Supple
   class AimCurve
   {
   public:
+    /** A run that takes this many times as long as the best one is stopped; one that is expected to
+     * is not begun. */
+    static constexpr double patience = 1.3;
+
     struct Trial
     {
       double x;       ///< step [s] or tolerance

@@ -59,7 +59,19 @@ namespace Supple
     /** Finds the soonest mesh for the runs that are good enough in time. @return what was found, in
      * sentences @throws ComputationError if nothing meets the aim */
     std::vector<std::string>
-    search_mesh();
+    search_mesh(const InterruptGuard &interrupt);
+
+    /** Both searches. @return what was found, in sentences */
+    std::vector<std::string>
+    search_all(const InterruptGuard &interrupt);
+
+    /** @throws InterruptedError if the user has asked for it */
+    void
+    stop_if(const InterruptGuard &interrupt) const;
+
+    /** @throws ComputationError that nothing moves */
+    [[noreturn]] void
+    refuse_rest() const;
 
     /** The runs that are good enough in time, the soonest first. */
     std::vector<MeshSearch::InTime>
@@ -114,6 +126,18 @@ namespace Supple
     /** @return whether it may still win */
     bool
     try_run(Candidate &candidate, double x);
+
+    /** Adds a run to the table and to what is known of its method. */
+    void
+    add_trial(Candidate &candidate, double x, const PlannedRun &run, const StudyRecord &record);
+
+    /** Whether the reference is made by this method. */
+    bool
+    is_of_reference(const Candidate &candidate) const;
+
+    /** The same of a run that was made on the way to the reference. */
+    void
+    take_from_reference(double tolerance, const StudyRecord &record);
 
     /** The candidate with the soonest run that meets the aim, or null. */
     const Candidate *

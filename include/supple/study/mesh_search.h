@@ -1,12 +1,13 @@
 #ifndef supple_mesh_search_h
 #define supple_mesh_search_h
 
-#include <supple/base/task_output.h>
+#include <supple/study/aim_curve.h>
 #include <supple/study/study_plan.h>
 #include <supple/study/study_quantities.h>
 #include <supple/study/study_runner.h>
 #include <supple/study/study_table.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,17 +28,27 @@ namespace Supple
     add(unsigned int n_parts, double distance);
 
     /** Of the last mesh, relative: d / (r^p - 1) with the distance d from the mesh before, whose
-     * cells are r times as large (Richardson 1911). Infinite while there is one mesh. */
+     * cells are r times as large (Richardson 1911). Infinite while there is one mesh, or where three
+     * meshes show an order below the lowest one. */
     double
     error() const;
 
-    /** p: between the last three meshes, or the lowest one that is believed. */
+    /** The same over the distance. */
+    double
+    error_over_distance() const;
+
+    /** p: between the last three meshes, within the orders that are believed; the lowest one while
+     * there are two. */
     double
     order() const;
 
     /** Whether three meshes have told the order. */
     bool
     order_is_known() const;
+
+    /** Whether the distances have risen twice. */
+    bool
+    diverges() const;
 
     /** Into how many parts edges have to be cut for an error. */
     double
@@ -63,37 +74,44 @@ namespace Supple
   class MeshSearch
   {
   public:
-    /** A method in time with its step or tolerance, which the runs take; of static scenes without
-     * overrides. */
+    /** A method in time with its step or tolerance, which the runs take; of static scenes a run
+     * without overrides. */
     struct InTime
     {
-      std::string label;
-      std::vector<Override> overrides;
+      PlannedRun run;
+      double error;         ///< relative, that of the reference included
+      double price_of_half; ///< how many times the run time half of it takes
     };
 
-    /** @param in_time those that are accurate enough, the soonest first: where one can't be had on
-     * a mesh, such as an explicit one, the next one is taken */
+    /**
+     * @param in_time   those that are accurate enough, the soonest first: where one can't be had on
+     *                  a mesh, such as an explicit one, the next one is taken
+     * @param aim       of the errors in space and in time together, relative
+     * @param after_run is called with all runs so far after each of them
+     */
     MeshSearch(const StudyPlan &plan,
                const StudyQuantities &quantities,
                const StudyRunner &runner,
-               const TaskOutput &output,
-               const std::vector<InTime> &in_time);
+               const std::vector<InTime> &in_time,
+               double aim,
+               const std::function<void(const StudyTable &)> &after_run);
 
-    /** A run whose error in space is below the aim. */
+    /** A run whose error is below the aim. */
     struct Found
     {
       PlannedRun run;
-      double error;   ///< in space, relative
-      double order;   ///< with which it falls
+      double error; ///< in space, relative
+      double order; ///< with which it falls
       bool order_is_known;
-      double seconds; ///< of the run
+      double error_in_time; ///< relative
+      double price_of_half; ///< how many times the run time half of both takes
+      double seconds;       ///< of the run
       unsigned int n_cells;
     };
 
-    /** @param error_in_time on top of what is found, for the table
-     * @return nothing if no mesh meets the aim */
+    /** @return nothing if no mesh meets the aim */
     std::optional<Found>
-    search(double aim, double error_in_time);
+    search();
 
     const StudyTable &
     table() const
@@ -102,26 +120,58 @@ namespace Supple
     }
 
   private:
-    /** The meshes of one order of cells. */
+    /** The meshes of one order of cells, from coarse to fine. */
+    struct Climb
+    {
+      unsigned int order_of_cells;
+      MeshLadder ladder;
+      std::optional<StudyRecord> before;
+      unsigned int n_parts = 0; ///< of the last mesh
+      unsigned int n_cells = 0;
+      double dimension     = 3.;
+      double seconds       = 0.; ///< of its run
+      unsigned int next    = 1;  ///< parts of the next mesh; 0: none
+      double expected      = 0.; ///< seconds of its run
+    };
+
+    /** Runs the next mesh. */
     void
-    climb(unsigned int order_of_cells, double aim, double error_in_time);
+    step(Climb &climb);
 
     /** A run on a mesh, by the first method in time that can be had. @return nothing if none can */
     std::optional<StudyRecord>
-    record(unsigned int order_of_cells, unsigned int n_parts, StudyRow &row) const;
+    record(unsigned int order_of_cells,
+           unsigned int n_parts,
+           StudyRow &row,
+           const InTime *&method) const;
 
     PlannedRun
-    planned(unsigned int order_of_cells, unsigned int n_parts, const InTime &method) const;
+    planned(unsigned int order_of_cells, unsigned int n_parts, const PlannedRun &method) const;
 
-    /** The next of the meshes that are tried; 0 if there is none, or none that may win. */
-    unsigned int
-    next(unsigned int n_parts, const MeshLadder &ladder, double aim, const StudyRow &last) const;
+    /** Relative errors, in space and in time, one for each quantity. */
+    std::vector<double>
+    errors(const MeshLadder &ladder,
+           const std::vector<double> &distances,
+           double error_in_time) const;
+
+    /** From how the number of cells grows. */
+    static double
+    dimension_of(const Climb &climb, unsigned int n_parts, unsigned int n_cells);
+
+    void
+    choose_next(Climb &climb) const;
+
+    /** Whether the next mesh of a climb may be sooner than the best one. */
+    bool
+    may_win(const Climb &climb) const;
 
     const StudyPlan &plan;
     const StudyQuantities &quantities;
     const StudyRunner &runner;
-    const TaskOutput &output;
     const std::vector<InTime> in_time;
+    const double aim;
+    const std::function<void(const StudyTable &)> after_run;
+    double seconds = 0.; ///< of all runs
     StudyTable found;
     std::optional<Found> best;
   };
