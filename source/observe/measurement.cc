@@ -6,9 +6,9 @@
 namespace Supple
 {
   std::vector<std::string>
-  Measurement::column_names()
+  Measurement::column_names(const bool with_contact)
   {
-    return {"step",
+    std::vector<std::string> names = {"step",
             "time",
             "dt",
             "kinetic",
@@ -29,6 +29,9 @@ namespace Supple
             "newton_iterations",
             "linear_iterations",
             "seconds"};
+    if (with_contact)
+      names.insert(names.end(), {"contact", "rubbed", "min_gap"});
+    return names;
   }
 
 
@@ -36,7 +39,7 @@ namespace Supple
   Measurement::row() const
   {
     const auto &p = linear_momentum, &l = angular_momentum;
-    return {double(step),
+    std::vector<double> values = {double(step),
             time,
             dt,
             kinetic,
@@ -57,6 +60,9 @@ namespace Supple
             double(newton_iterations),
             double(linear_iterations),
             seconds};
+    if (contact)
+      values.insert(values.end(), {contact->energy, contact->rubbed, contact->min_gap});
+    return values;
   }
 
 
@@ -66,7 +72,7 @@ namespace Supple
     const std::vector<double> values = row();
     if (std::all_of(values.begin(), values.end(), [](const double x) { return std::isfinite(x); }))
       return ""; // as in nearly all steps
-    const std::vector<std::string> names = column_names();
+    const std::vector<std::string> names = column_names(contact.has_value());
     std::string list;
     for (unsigned int i = 0; i < values.size(); ++i)
       if (!std::isfinite(values[i]))

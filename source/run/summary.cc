@@ -76,7 +76,7 @@ namespace Supple
     what_was_built(const Summary &summary)
     {
       const Effort &effort = summary.effort;
-      return {{"mass_matrix", summary.has_mass},
+      Json built           = {{"mass_matrix", summary.has_mass},
               {"damping_matrix", summary.damped},
               {"rotations_computed", effort.rotations_computed},
               {"assemblies", effort.assemblies},
@@ -88,6 +88,9 @@ namespace Supple
               {"history", summary.history},
               {"probes", summary.probes},
               {"frames", summary.frames}};
+      if (summary.tools > 0)
+        built["tools"] = summary.tools;
+      return built;
     }
 
 
@@ -104,6 +107,19 @@ namespace Supple
               {"min_volume_ratio", last.min_volume_ratio},
               {"max_volume_ratio", last.max_volume_ratio},
               {"inverted", last.inverted}};
+    }
+
+
+    Json
+    contact(const Summary &summary)
+    {
+      const Measurement::Contact &last = *summary.last.contact;
+      const std::vector<double> &gaps  = summary.extremes.gaps;
+      return {{"min_gap", gaps.empty() ? last.min_gap : *std::min_element(gaps.begin(), gaps.end())},
+              {"energy", last.energy},
+              {"rubbed", last.rubbed},
+              {"creep", last.creep},
+              {"releases", summary.extremes.releases}};
     }
 
 
@@ -233,6 +249,7 @@ namespace Supple
     , size(size_of(model))
     , effort(model.effort)
     , has_mass(model.implicit_operator.has_mass())
+    , tools(parameters.tools.size())
     , damped(model.damping.any())
     , pilots(parameters.mesh.refinement.pilots)
   {
@@ -293,7 +310,9 @@ namespace Supple
     json["distance_from_shape"]  = distance_from_shape;
     json["relative_to_diameter"] = {{"distance_from_rest", distance_from_rest / size.diameter},
                                     {"distance_from_shape", distance_from_shape / size.diameter}};
-    json["built"]                = what_was_built(*this);
+    if (last.contact)
+      json["contact"] = contact(*this);
+    json["built"] = what_was_built(*this);
     json["versions"]             = {{"supple", SUPPLE_VERSION},
                                     {"deal.II", DEAL_II_PACKAGE_VERSION},
                                     {"SUNDIALS", SUNDIALS_VERSION}};

@@ -306,6 +306,9 @@ namespace Supple
     // The force at the end of a stage follows from the solution of its equation.
     ARKStepSetDeduceImplicitRhs(memory, 1);
     ARKStepSetPredictorMethod(memory, 0);
+    if (model.forces.contact())
+      contact_stages = std::make_unique<ContactStages>(
+        model, equation, context, failure, memory, [this](const double at) { return time_of(at); });
     set_linear(settings.method == Method::backward_euler || split || model.forces.are_linear());
   }
 
@@ -313,7 +316,7 @@ namespace Supple
   void
   ArkodeIntegrator::set_linear(const bool is_linear)
   {
-    linear = is_linear;
+    linear = is_linear && !contact_stages;
     if (linear)
       {
         ARKStepSetLinear(memory, !split && model.forces.change_operator() ? 1 : 0);

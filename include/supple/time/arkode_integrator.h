@@ -1,6 +1,7 @@
 #ifndef supple_arkode_integrator_h
 #define supple_arkode_integrator_h
 
+#include <supple/time/contact_stages.h>
 #include <supple/time/dynamic_integrator.h>
 
 #include <arkode/arkode_butcher.h>
@@ -204,6 +205,7 @@ namespace Supple
     bool given_up          = false; ///< up to the next of them: the energy rises
     long newton_iterations = 0;
     std::optional<StableStep> stable; ///< of an explicit method
+    std::unique_ptr<ContactStages> contact_stages; ///< in a scene with tools
   };
 } // namespace Supple
 

@@ -87,6 +87,10 @@ namespace Supple
     bool
     is_semi_implicit() const;
 
+    /** Whether the last implicit stage of a step is its end: those methods are stiffly accurate. */
+    bool
+    ends_with_stage() const;
+
     /** With which power of the step the error falls; of ida its maximum order. */
     unsigned int
     order() const;
