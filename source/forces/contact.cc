@@ -71,9 +71,9 @@ namespace Supple
     PartMatrix
     stiffness_of(const Friction::Slip &slip)
     {
-      const ContactPair &pair           = *slip.pair;
-      const unsigned int n              = 3 * pair.part->n;
-      const Tensor<2, 3> of_place       = slip.stiffness();
+      const ContactPair &pair     = *slip.pair;
+      const unsigned int n        = 3 * pair.part->n;
+      const Tensor<2, 3> of_place = slip.stiffness();
       PartMatrix matrix(n, n);
       for (unsigned int k = 0; k < n; ++k)
         for (unsigned int l = 0; l < n; ++l)
@@ -115,8 +115,7 @@ namespace Supple
                        ": tools do not touch axisymmetric bodies yet (" +
                        scene.place(list[0].section() + "/Shape") + ": subsection " +
                        list[0].section() + "). Take a solid body, or a plane one.");
-    const double reach =
-      parameters.reach > 0. ? parameters.reach : usual_reach(body, surface);
+    const double reach = parameters.reach > 0. ? parameters.reach : usual_reach(body, surface);
     for (const ToolParameters &tool : list)
       tools.emplace_back(tool, body.mesh.section, reach, scene);
   }
@@ -199,7 +198,7 @@ namespace Supple
   std::vector<Friction::Slip>
   Contact::slips(const double *const u, const Passage &passage) const
   {
-    if (!friction.any())
+    if (!friction.any() || passage.to == passage.from) // nothing slips in no time
       return {};
     std::vector<std::array<Pose, 2>> poses;
     for (const Tool &tool : tools)
@@ -254,7 +253,7 @@ namespace Supple
   Contact::slip_speeds(const Configuration &configuration) const
   {
     const GhostValues u(configuration.displacement());
-    const double duration = configuration.passage.to - configuration.passage.from;
+    const double duration = configuration.passage.to - configuration.passage.from; // if any
     std::vector<double> fastest(2, 0.), all(2);
     for (const Friction::Slip &slip : slips(u.data(), configuration.passage))
       {
@@ -301,11 +300,12 @@ namespace Supple
                        const TangentFactors &factors,
                        SymmetricBlockMatrix &A) const
   {
-    const auto add = [&factors](double *block, const PartMatrix &matrix, unsigned int a, unsigned int b) {
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
-          block[3 * i + j] += factors.displacement * matrix(3 * a + i, 3 * b + j);
-    };
+    const auto add =
+      [&factors](double *block, const PartMatrix &matrix, unsigned int a, unsigned int b) {
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            block[3 * i + j] += factors.displacement * matrix(3 * a + i, 3 * b + j);
+      };
     for (const Stiffness &stiffness : tangent)
       {
         const SurfacePart &part = *stiffness.part;
@@ -382,9 +382,7 @@ namespace Supple
 
 
   double
-  Contact::safe_part(const Configuration &configuration,
-                     const Vector &way,
-                     const double part) const
+  Contact::safe_part(const Configuration &configuration, const Vector &way, const double part) const
   {
     const Passage &passage = configuration.passage;
     const GhostValues u(configuration.displacement()), du(way);
@@ -401,7 +399,8 @@ namespace Supple
               for (unsigned int i = 0; i < 3; ++i)
                 step[v][i] = du.data()[3 * piece.nodes[v] + i];
             safe = std::min(
-              safe, Supple::safe_part(piece, surface.corners(piece, u.data()), step, tool, from, to));
+              safe,
+              Supple::safe_part(piece, surface.corners(piece, u.data()), step, tool, from, to));
           }
       }
     return Utilities::MPI::min(safe, body.mesh.communicator);
@@ -489,7 +488,7 @@ namespace Supple
         reports[t].torque       = Arrow({sum[3], sum[4], sum[5]});
         reports[t].area         = sum[6];
         reports[t].gap          = nearest(u.data(), placed[t]).gap;
-        reports[t].depth = std::max(0., placed[t].reach - reports[t].gap);
+        reports[t].depth        = std::max(0., placed[t].reach - reports[t].gap);
       }
     return reports;
   }
@@ -557,8 +556,8 @@ namespace Supple
     Nearest all{Utilities::MPI::min(here.gap, communicator), 0., 0};
     const bool is_here = here.gap == all.gap;
     all.edge           = Utilities::MPI::max(is_here ? here.edge : 0., communicator);
-    all.vertex         = Utilities::MPI::min(is_here ? here.vertex : numbers::invalid_unsigned_int,
-                                     communicator);
+    all.vertex =
+      Utilities::MPI::min(is_here ? here.vertex : numbers::invalid_unsigned_int, communicator);
     return all;
   }
 
@@ -592,12 +591,11 @@ namespace Supple
         const Nearest place     = nearest(u.data(), placed);
         const double radius     = tool.parameters.radius;
         if (!placed.is_plane && radius < place.edge)
-          warnings.push_back("The tool " + tool.parameters.name + ", with a radius of " +
-                             digits(radius, 3) +
-                             " m, is thinner than the cells that it is next to, with edges of " +
-                             digits(place.edge, 3) +
-                             " m: its force depends on the mesh. Edges of less than " +
-                             digits(radius, 3) + " m would do.");
+          warnings.push_back(
+            "The tool " + tool.parameters.name + ", with a radius of " + digits(radius, 3) +
+            " m, is thinner than the cells that it is next to, with edges of " +
+            digits(place.edge, 3) + " m: its force depends on the mesh. Edges of less than " +
+            digits(radius, 3) + " m would do.");
         if (place.gap < placed.reach * (1. - 1e-6))
           warnings.push_back("At the start the tool " + tool.parameters.name + " is " +
                              digits(placed.reach - place.gap, 3) +

@@ -45,9 +45,7 @@ namespace Supple
     class Finder
     {
     public:
-      Finder(const PlacedTool &tool,
-             const unsigned int number,
-             std::vector<ContactPair> &pairs)
+      Finder(const PlacedTool &tool, const unsigned int number, std::vector<ContactPair> &pairs)
         : tool(tool)
         , length(tool.end - tool.begin)
         , is_point(length.norm_square() == 0.)
@@ -184,11 +182,11 @@ namespace Supple
         const double sine    = normal.norm_square() / squares; // its square
         if (!(sine < small))
           return;
-        const double f    = sine / small;
-        pair.factor       = f * (2. - f);
-        const Arrow slope = 4. * (1. - f) / small *
-                            (dealii::cross_product_3d(length, normal) / squares -
-                             sine / edge.norm_square() * edge);
+        const double f = sine / small;
+        pair.factor    = f * (2. - f);
+        const Arrow slope =
+          4. * (1. - f) / small *
+          (dealii::cross_product_3d(length, normal) / squares - sine / edge.norm_square() * edge);
         pair.factor_gradient = {{-1. * slope, slope, Arrow()}};
       }
 

@@ -89,9 +89,8 @@ namespace Supple
         vertices.push_back({1, {{node, node, node}}, of_vertex[node], true, {}});
     for (const auto &[nodes, measure] : of_edge)
       {
-        const bool ascending =
-          body.serial_vertex[nodes[0]] < body.serial_vertex[nodes[1]];
-        const bool owned = owns(nodes[ascending ? 0 : 1]);
+        const bool ascending = body.serial_vertex[nodes[0]] < body.serial_vertex[nodes[1]];
+        const bool owned     = owns(nodes[ascending ? 0 : 1]);
         edges.push_back({2, {{nodes[0], nodes[1], nodes[1]}}, measure, owned, {}});
       }
     for (std::vector<SurfacePart> *parts : {&edges, &triangles})

@@ -195,7 +195,9 @@ namespace Supple
         const bool is_contact       = account == EnergyAccount::contact;
         if (force.get() != of_cells &&
             (is_elastic || is_contact || account == EnergyAccount::potential))
-          energy[is_elastic ? 0 : is_contact ? 2 : 1] +=
+          energy[is_elastic   ? 0
+                 : is_contact ? 2
+                              : 1] +=
             (force->is_load() ? load_factor : 1.) * force->energy(configuration, time);
       }
     std::vector<double> all(energy.size());

@@ -46,8 +46,8 @@ namespace Supple
     for (const Touch &touch : touches)
       {
         const auto &[on_surface, on_tool] = places(touch.pair);
-        const Arrow way = on_surface - touch.place - (on_tool - touch.pair.place);
-        const Arrow &n  = touch.pair.normal;
+        const Arrow way                   = on_surface - touch.place - (on_tool - touch.pair.place);
+        const Arrow &n                    = touch.pair.normal;
         slips.push_back(
           {&touch.pair, touch.limit, way - (n * way) * n, slip_resolution * duration});
       }

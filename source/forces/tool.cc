@@ -87,8 +87,7 @@ namespace Supple
       return i < all.size() ? all[i] : "0";
     };
     if (!Expression::says_zero(component(parameters.position, 2)))
-      throw InputError(scene.origin(name + "/Position") + words +
-                       "the third component must be 0.");
+      throw InputError(scene.origin(name + "/Position") + words + "the third component must be 0.");
     for (unsigned int i = 0; i < 2; ++i)
       if (!Expression::says_zero(component(parameters.rotation, i)))
         throw InputError(scene.origin(name + "/Rotation") + words +

@@ -97,19 +97,19 @@ namespace Supple
   Diagnostics::save() const
   {
     nlohmann::json saved = {{"elastic", elastic},
-            {"total", total},
-            {"dissipated", dissipated},
-            {"most_dissipated", most_dissipated},
-            {"work", work},
-            {"largest_energy", largest_energy},
-            {"energy_rises", worst.energy_rises},
-            {"energy_risen", worst.energy_risen},
-            {"energy_gained", worst.energy_gained},
-            {"motion_energy", worst.motion_energy},
-            {"most_inverted", worst.most_inverted},
-            {"min_volume_ratio", worst.min_volume_ratio},
-            {"max_volume_ratio", worst.max_volume_ratio},
-            {"not_finite", worst.not_finite}};
+                            {"total", total},
+                            {"dissipated", dissipated},
+                            {"most_dissipated", most_dissipated},
+                            {"work", work},
+                            {"largest_energy", largest_energy},
+                            {"energy_rises", worst.energy_rises},
+                            {"energy_risen", worst.energy_risen},
+                            {"energy_gained", worst.energy_gained},
+                            {"motion_energy", worst.motion_energy},
+                            {"most_inverted", worst.most_inverted},
+                            {"min_volume_ratio", worst.min_volume_ratio},
+                            {"max_volume_ratio", worst.max_volume_ratio},
+                            {"not_finite", worst.not_finite}};
     if (forces.contact())
       {
         std::vector<double> works;

@@ -283,11 +283,13 @@ namespace Supple
                          digits(worst.gaps[t] - tool.reach, 3) + " m.");
       }
     const TimeMethod method = problem.parameters.time.method;
-    if (worst.releases > 0 && !problem.stationary &&
+    const bool is_free = problem.constraints.n_held == 0 || !problem.constraints.free_pieces.empty();
+    if (worst.releases > 0 && is_free && !problem.stationary &&
         (method == TimeMethod::backward_euler || method == TimeMethod::implicit_backward_euler))
-      list.push_back("The body left a tool that it had touched: how fast it rebounds depends on "
-                     "the step, for backward Euler damps what is faster. Halve Time/Step, or take "
-                     "Time/Method = trbdf2.");
+      list.push_back(
+        "The body left a tool that it had touched: how fast it rebounds depends on "
+        "the step, for backward Euler damps what is faster. Halve Time/Step, or take "
+        "Time/Method = trbdf2.");
     return list;
   }
 

@@ -77,17 +77,17 @@ namespace Supple
     {
       const Effort &effort = summary.effort;
       Json built           = {{"mass_matrix", summary.has_mass},
-              {"damping_matrix", summary.damped},
-              {"rotations_computed", effort.rotations_computed},
-              {"assemblies", effort.assemblies},
-              {"cells_warped", effort.cells_warped},
-              {"factorizations", effort.factorizations},
-              {"multigrid_hierarchies", effort.hierarchies},
-              {"parallel", summary.size.ranks > 1},
-              {"energies_measured", summary.observed},
-              {"history", summary.history},
-              {"probes", summary.probes},
-              {"frames", summary.frames}};
+                              {"damping_matrix", summary.damped},
+                              {"rotations_computed", effort.rotations_computed},
+                              {"assemblies", effort.assemblies},
+                              {"cells_warped", effort.cells_warped},
+                              {"factorizations", effort.factorizations},
+                              {"multigrid_hierarchies", effort.hierarchies},
+                              {"parallel", summary.size.ranks > 1},
+                              {"energies_measured", summary.observed},
+                              {"history", summary.history},
+                              {"probes", summary.probes},
+                              {"frames", summary.frames}};
       if (summary.tools > 0)
         built["tools"] = summary.tools;
       return built;
@@ -115,7 +115,8 @@ namespace Supple
     {
       const Measurement::Contact &last = *summary.last.contact;
       const std::vector<double> &gaps  = summary.extremes.gaps;
-      return {{"min_gap", gaps.empty() ? last.min_gap : *std::min_element(gaps.begin(), gaps.end())},
+      return {{"min_gap",
+               gaps.empty() ? last.min_gap : *std::min_element(gaps.begin(), gaps.end())},
               {"energy", last.energy},
               {"rubbed", last.rubbed},
               {"creep", last.creep},
@@ -312,10 +313,10 @@ namespace Supple
                                     {"distance_from_shape", distance_from_shape / size.diameter}};
     if (last.contact)
       json["contact"] = contact(*this);
-    json["built"] = what_was_built(*this);
-    json["versions"]             = {{"supple", SUPPLE_VERSION},
-                                    {"deal.II", DEAL_II_PACKAGE_VERSION},
-                                    {"SUNDIALS", SUNDIALS_VERSION}};
+    json["built"]    = what_was_built(*this);
+    json["versions"] = {{"supple", SUPPLE_VERSION},
+                        {"deal.II", DEAL_II_PACKAGE_VERSION},
+                        {"SUNDIALS", SUNDIALS_VERSION}};
     return json;
   }
 

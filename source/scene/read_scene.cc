@@ -132,13 +132,17 @@ namespace Supple
                            "of first order; " +
                            parameters.origin("Time/Method") +
                            " would gain nothing. Take backward euler or implicit backward euler.");
+      if (time.method == TimeMethod::esdirk5)
+        throw InputError(parameters.origin("Time/Method") +
+                         ": its first stages go far beyond what comes, so that the energy grows "
+                         "without bounds where tools are met. Take trbdf2, esdirk3 or esdirk4.");
       if (time.ends_with_stage())
         return;
-      throw InputError(parameters.origin("Time/Method") +
-                       ": with tools (subsection " + parameters.tools[0].section() +
+      throw InputError(parameters.origin("Time/Method") + ": with tools (subsection " +
+                       parameters.tools[0].section() +
                        ") a step must end with an implicit stage, or the body may end within one. "
-                       "Take backward euler, implicit backward euler, trbdf2, or esdirk3 to "
-                       "esdirk5.");
+                       "Take backward euler, implicit backward euler, trbdf2, esdirk3 or "
+                       "esdirk4.");
     }
 
 

@@ -120,7 +120,7 @@ namespace Supple
           add_way_of_held(way);
           stage.subtract_product(right_side, way);
           sum_into(contact_force,
-                                     [&](double *sum) { contact.add_advance(configuration, 1., sum); });
+                   [&](double *sum) { contact.add_advance(configuration, 1., sum); });
           right_side += contact_force;
           model.constraints.set_zero(right_side);
         }
@@ -176,16 +176,17 @@ namespace Supple
       {
         stage.correct(part, correction);
         stage.evaluate();
-        const Slope after   = slope(stage);
-        const double change = after.contact - before.contact -
-                              0.5 * part * (before.others + after.others);
+        const Slope after = slope(stage);
+        const double change =
+          after.contact - before.contact - 0.5 * part * (before.others + after.others);
         // Near the end the energy changes by less than it is accurate; the forces tell more.
         if (change <= round_off * std::abs(before.contact) - sufficient * part * fall ||
             after.residual <= before.residual)
           return;
       }
-    throw ComputationError("no part of Newton's correction lowers the energy of the body and what "
-                           "it touches");
+    throw ComputationError(
+      "no part of Newton's correction lowers the energy of the body and what "
+      "it touches");
   }
 
 
@@ -193,7 +194,7 @@ namespace Supple
   ContactNewton::throw_not_done() const
   {
     std::string nearest;
-    double least = std::numeric_limits<double>::max();
+    double least                          = std::numeric_limits<double>::max();
     const std::vector<ToolReport> reports = contact.reports(model.configuration);
     for (unsigned int t = 0; t < reports.size(); ++t)
       if (reports[t].gap < least)

@@ -17,12 +17,12 @@ namespace Supple
      * of displacements, where M = I and f is the velocity, and of velocities. */
     struct StageData
     {
-      double time, gamma;     ///< [s]
-      const double *start;    ///< z0
-      const double *data;     ///< s
-      const double *weights;  ///< of errors
-      double tolerance;       ///< of the weighted mean square
-      unsigned int n;         ///< own degrees of freedom
+      double time, gamma;    ///< [s]
+      const double *start;   ///< z0
+      const double *data;    ///< s
+      const double *weights; ///< of errors
+      double tolerance;      ///< of the weighted mean square
+      unsigned int n;        ///< own degrees of freedom
     };
 
 
@@ -66,7 +66,8 @@ namespace Supple
           change[i] = y[i] - stage.start[i];
         equation.mass_product(inertia.data(), change.data());
         for (unsigned int i = 0; i < n; ++i)
-          force.local_element(i) = rates[n + i] - (inertia[n + i] - stage.data[n + i]) / stage.gamma;
+          force.local_element(i) =
+            rates[n + i] - (inertia[n + i] - stage.data[n + i]) / stage.gamma;
         model.constraints.set_zero(force);
       }
 
@@ -165,7 +166,7 @@ namespace Supple
       const Contact &contact;
       EquationOfMotion &equation;
       const StageData stage;
-      std::vector<double> y, kept;               ///< the unknowns
+      std::vector<double> y, kept;                ///< the unknowns
       std::vector<double> rates, change, inertia; ///< at hand
       Vector force, inertial_way, right_side, product;
     };

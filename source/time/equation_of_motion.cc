@@ -115,7 +115,7 @@ namespace Supple
         if (passage.part < 1.)
           for (const unsigned int dof : model.constraints.owned())
             {
-              double &u          = state.displacement.local_element(dof);
+              double &u = state.displacement.local_element(dof);
               const double start =
                 model.configuration.start_of_step().displacement.local_element(dof);
               u = start + passage.part * (u - start);

@@ -72,8 +72,8 @@ namespace Supple
       if (!model.forces.have_energy() || choice == Tangent::frozen)
         statics.assemble(Tangent::frozen, load_factor);
       else
-        statics.assemble(definite || choice == Tangent::definite ? Tangent::definite :
-                                                                   Tangent::consistent,
+        statics.assemble(definite || choice == Tangent::definite ? Tangent::definite
+                                                                 : Tangent::consistent,
                          load_factor);
     }
 

@@ -1,5 +1,6 @@
-// Contact of a body with tools: forces against differences of the barrier's energy, its tangent and the distances of all kinds
-// of pairs against differences of forces and gradients, and ways that are safe.
+// Contact of a body with tools: forces against differences of the barrier's energy, its tangent and
+// the distances of all kinds of pairs against differences of forces and gradients, and ways that
+// are safe.
 
 #include <supple/forces/barrier.h>
 #include <supple/forces/contact.h>
@@ -24,7 +25,7 @@ using namespace Supple;
 
 namespace
 {
-  const std::string cube = R"(
+  const std::string cube   = R"(
     subsection Mesh
       set Shape     = box
       set Box size  = 1, 1, 1
@@ -38,14 +39,14 @@ namespace
       set Rectangle squares = 2, 2
     end
 )";
-  const std::string floor = R"(
+  const std::string floor  = R"(
     subsection Tool floor
       set Shape    = plane
       set Position = 0; -0.02; 0
       set Normal   = 0.05, 1, 0
     end
 )";
-  const std::string ball = R"(
+  const std::string ball   = R"(
     subsection Tool ball
       set Shape    = sphere
       set Radius   = 0.4
@@ -198,9 +199,9 @@ namespace
                   gradients[side].push_back(moved[p].c[l / 3] * moved[p].normal[l % 3]);
               }
             for (unsigned int l = 0; same && l < matrix.rows(); ++l)
-              difference = std::max(
-                difference,
-                std::abs((gradients[0][l] - gradients[1][l]) / (2. * h) - matrix(l, k)));
+              difference =
+                std::max(difference,
+                         std::abs((gradients[0][l] - gradients[1][l]) / (2. * h) - matrix(l, k)));
           }
         if (same) // otherwise it is at a place where the kind changes
           {
@@ -223,8 +224,9 @@ namespace
         Eigen::VectorXd gradient(matrix.rows());
         for (unsigned int k = 0; k < matrix.rows(); ++k)
           gradient[k] = pair.c[k / 3] * pair.normal[k % 3];
-        const Eigen::MatrixXd whole = barrier.curvature(pair.gap) * gradient * gradient.transpose() +
-                                      barrier.slope(pair.gap) * second_derivative(pair);
+        const Eigen::MatrixXd whole =
+          barrier.curvature(pair.gap) * gradient * gradient.transpose() +
+          barrier.slope(pair.gap) * second_derivative(pair);
         const Eigen::VectorXd of_matrix =
           Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues();
         const Eigen::VectorXd left =
@@ -232,7 +234,7 @@ namespace
         const double size = matrix.norm() + whole.norm() + 1e-300;
         negative          = std::max(negative, -of_matrix.minCoeff() / size);
         missing           = std::max(missing, -left.minCoeff() / size);
-        rest              = std::max(rest, std::abs((matrix * (matrix - whole)).norm()) / (size * size));
+        rest = std::max(rest, std::abs((matrix * (matrix - whole)).norm()) / (size * size));
       }
     report("  negative part of the tangent", negative, 1e-12);
     report("  what it takes off is negative", missing, 1e-12);
@@ -245,13 +247,11 @@ namespace
     for (unsigned int dof = 0; dof < w.size(); dof += 3)
       w.local_element(dof) = 1.; // a shift of the body: no edge turns
     touched.contact.update_tangent(Tangent::consistent, touched.configuration, 0., 1.);
-    touched.contact.add_product(
-      touched.configuration, {0., 0., 1.}, w.begin(), product.begin());
+    touched.contact.add_product(touched.configuration, {0., 0., 1.}, w.begin(), product.begin());
     for (const double sign : {1., -1.})
       {
         touched.configuration.state.displacement.add(sign * 1e-7, w);
-        touched.contact.add_force(
-          touched.configuration, 0., sign > 0. ? up.begin() : down.begin());
+        touched.contact.add_force(touched.configuration, 0., sign > 0. ? up.begin() : down.begin());
         touched.configuration.state.displacement.add(-sign * 1e-7, w);
       }
     down -= up;

@@ -6,8 +6,8 @@
 namespace Supple
 {
   /**
-   * The barrier of incremental potential contact (Li et al., ACM Trans. Graphics 39 (2020) 49), with
-   * the gap g, the reach d and s = g/d < 1:
+   * The barrier of incremental potential contact (Li et al., ACM Trans. Graphics 39 (2020) 49),
+   * with the gap g, the reach d and s = g/d < 1:
    *
    *   b(g) = -d (s - 1)^2 ln s,
    *

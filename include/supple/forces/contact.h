@@ -21,8 +21,8 @@ namespace Supple
    * with the barrier b, areas w at rest, and a stiffness kappa [Pa] that stays what it is. No gap
    * may become zero on the way from one state to the next: see safe_part().
    *
-   * Friction is that of the touches at the start of a step (Friction); it has no energy that it gives
-   * back.
+   * Friction is that of the touches at the start of a step (Friction); it has no energy that it
+   * gives back.
    *
    * A tool touches up to three nodes of a face at once, which share a cell: the pattern of the
    * operator stays as it is. The tangent is definite in all of its kinds.
@@ -87,8 +87,8 @@ namespace Supple
     double
     rubbed(const Configuration &configuration) const;
 
-    /** The greatest speed [m/s] at which a place slips that friction can hold, and that at which one
-     * slips that it can't; collective. */
+    /** The greatest speed [m/s] at which a place slips that friction can hold, and that at which
+     * one slips that it can't; collective. */
     std::pair<double, double>
     slip_speeds(const Configuration &configuration) const;
 
@@ -163,8 +163,8 @@ namespace Supple
     void
     require_clear(const Configuration &configuration, const ParameterFile &scene) const;
 
-    /** @throws ComputationError if a vertex that is held in all directions ends within a tool: there
-     * is no such state. Collective. */
+    /** @throws ComputationError if a vertex that is held in all directions ends within a tool:
+     * there is no such state. Collective. */
     void
     require_room(const Passage &passage, const Constraints &constraints) const;
 

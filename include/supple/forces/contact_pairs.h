@@ -36,7 +36,7 @@ namespace Supple
     bool is_flat; ///< the tool is a plane, and d is linear
     unsigned int n_free = 0;
     std::array<std::array<double, 3>, 2> dc{}; ///< dc_i / dtheta_k
-    std::array<Arrow, 2> J{}; ///< derivatives of d n by theta_k [m]
+    std::array<Arrow, 2> J{};                  ///< derivatives of d n by theta_k [m]
 
     double factor = 1.;                     ///< of the barrier
     std::array<Arrow, 3> factor_gradient{}; ///< by the places of the nodes [1/m]

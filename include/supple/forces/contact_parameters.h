@@ -36,8 +36,8 @@ namespace Supple
 
     std::string name;
     Shape shape          = Shape::sphere;
-    std::string position = "0; 0; 0"; ///< of its reference point in time [m]
-    std::string rotation = "0; 0; 0"; ///< about that point: axis times angle [degrees]
+    std::string position = "0; 0; 0";          ///< of its reference point in time [m]
+    std::string rotation = "0; 0; 0";          ///< about that point: axis times angle [degrees]
     dealii::Tensor<1, 3> normal{{0., 0., 1.}}; ///< of a plane, toward the body
     dealii::Tensor<1, 3> axis{{0., 0., 0.1}};  ///< of a capsule, from its tip on [m]
     double radius   = 0.01;                    ///< [m]

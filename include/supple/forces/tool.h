@@ -44,9 +44,9 @@ namespace Supple
   struct PlacedTool
   {
     bool is_plane;
-    Arrow begin; ///< of the segment, or a point of the plane [m]
-    Arrow end;   ///< of the segment [m]
-    Arrow normal;///< of the plane, toward the body, of length 1
+    Arrow begin;  ///< of the segment, or a point of the plane [m]
+    Arrow end;    ///< of the segment [m]
+    Arrow normal; ///< of the plane, toward the body, of length 1
 
     /** Distance from the segment, or height above the plane, from where on the barrier acts no
      * more is @p offset and its reach [m]. */

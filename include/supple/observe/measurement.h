@@ -73,8 +73,8 @@ namespace Supple
     double min_volume_ratio    = 1.;
     double max_volume_ratio    = 1.;
     unsigned int not_finite    = 0; ///< measurements that are not finite: a run ends at the first
-    unsigned int releases      = 0; ///< steps in which the body leaves the last tool that it touched
-    std::vector<double> gaps;       ///< the least of each tool [m]
+    unsigned int releases = 0; ///< steps in which the body leaves the last tool that it touched
+    std::vector<double> gaps;  ///< the least of each tool [m]
   };
 } // namespace Supple
 
