@@ -249,19 +249,16 @@ namespace Supple
   }
 
 
-  std::pair<double, double>
-  Contact::slip_speeds(const Configuration &configuration) const
+  double
+  Contact::creep(const Configuration &configuration) const
   {
     const GhostValues u(configuration.displacement());
-    const double duration = configuration.passage.to - configuration.passage.from; // if any
-    std::vector<double> fastest(2, 0.), all(2);
-    for (const Friction::Slip &slip : slips(u.data(), configuration.passage))
-      {
-        double &speed = fastest[slip.way.norm() < slip.resolution ? 0 : 1];
-        speed         = std::max(speed, slip.way.norm() / duration);
-      }
-    Utilities::MPI::max(fastest, body.mesh.communicator, all);
-    return {all[0], all[1]};
+    const Passage &passage = configuration.passage;
+    double fastest         = 0.;
+    for (const Friction::Slip &slip : slips(u.data(), passage))
+      if (slip.way.norm() < slip.resolution)
+        fastest = std::max(fastest, slip.way.norm() / (passage.to - passage.from));
+    return Utilities::MPI::max(fastest, body.mesh.communicator);
   }
 
 
@@ -410,39 +407,47 @@ namespace Supple
   void
   Contact::add_works(std::vector<double> &works,
                      const Vector &displacement,
-                     const Passage &at,
-                     const Passage &from,
-                     const Passage &to,
+                     const Passage &step,
+                     const bool at_end,
                      const double weight) const
   {
     if (weight == 0.)
       return;
-    std::vector<std::array<Pose, 3>> poses;
+    std::vector<Pose> first, last;
     for (const Tool &tool : tools)
-      poses.push_back({{tool.pose(at), tool.pose(from), tool.pose(to)}});
+      {
+        first.push_back(tool.pose(step.from));
+        last.push_back(tool.pose(step.to));
+      }
+    const std::vector<Pose> &now = at_end ? last : first;
     const GhostValues u(displacement);
-    const auto add = [&](const ContactPair &pair, const Pose &pose_of_place, const Arrow &force) {
-      const auto &[here, first, last] = poses[pair.tool];
-      (void)here;
+    for (const ContactPair &pair : pairs(u.data(), at(at_end ? step.to : step.from)))
       if (pair.part->owned)
-        works[pair.tool] += weight * (force * (pose_of_place.place_with(last, pair.place) -
-                                               pose_of_place.place_with(first, pair.place)));
-    };
-    for (const ContactPair &pair : pairs(u.data(), at))
-      add(pair, poses[pair.tool][0], force_of(pair));
-    if (at.to == to.to) // of the touches at the start, friction is that of the end
-      for (const Friction::Slip &slip : slips(u.data(), Passage{from.from, to.to, 1.}))
-        add(*slip.pair, poses[slip.pair->tool][1], slip.force());
+        {
+          const unsigned int t = pair.tool;
+          const Arrow way =
+            now[t].place_with(last[t], pair.place) - now[t].place_with(first[t], pair.place);
+          works[t] += weight * (force_of(pair) * way);
+        }
+    if (!at_end)
+      return;
+    for (const Friction::Slip &slip : slips(u.data(), step))
+      if (slip.pair->part->owned)
+        {
+          const unsigned int t = slip.pair->tool; // it touched at the start
+          const Arrow way      = first[t].place_with(last[t], slip.pair->place) - slip.pair->place;
+          works[t] += weight * (slip.force() * way);
+        }
   }
 
 
   std::vector<double>
   Contact::works(const Configuration &configuration, const double weight) const
   {
-    const Passage from = at(configuration.passage.from), to = at(configuration.passage.to);
+    const Passage step{configuration.passage.from, configuration.passage.to, 1.};
     std::vector<double> works(tools.size(), 0.), all(tools.size());
-    add_works(works, configuration.start_of_step().displacement, from, from, to, weight);
-    add_works(works, configuration.displacement(), to, from, to, 1. - weight);
+    add_works(works, configuration.start_of_step().displacement, step, false, weight);
+    add_works(works, configuration.displacement(), step, true, 1. - weight);
     Utilities::MPI::sum(works, body.mesh.communicator, all);
     return all;
   }

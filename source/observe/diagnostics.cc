@@ -214,7 +214,7 @@ namespace Supple
     now.tools   = forces.contact()->reports(configuration);
     now.rubbed  = contact.rubbed + report.rubbed;
     now.min_gap = now.tools[0].gap;
-    now.creep   = forces.contact()->slip_speeds(configuration).first;
+    now.creep   = forces.contact()->creep(configuration);
     for (std::size_t t = 0; t < now.tools.size(); ++t)
       {
         now.min_gap = std::min(now.min_gap, now.tools[t].gap);

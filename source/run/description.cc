@@ -283,7 +283,8 @@ namespace Supple
                          digits(worst.gaps[t] - tool.reach, 3) + " m.");
       }
     const TimeMethod method = problem.parameters.time.method;
-    const bool is_free = problem.constraints.n_held == 0 || !problem.constraints.free_pieces.empty();
+    const bool is_free =
+      problem.constraints.n_held == 0 || !problem.constraints.free_pieces.empty();
     if (worst.releases > 0 && is_free && !problem.stationary &&
         (method == TimeMethod::backward_euler || method == TimeMethod::implicit_backward_euler))
       list.push_back(

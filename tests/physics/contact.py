@@ -1,4 +1,5 @@
-"""Tools that touch the body: Hertz's force, friction on an incline, impact, weight, and tools that stay outside whatever happens. The second argument is the part of
+"""Tools that touch the body: Hertz's force, friction on an incline, impact, weight, and tools that stay outside whatever happens.
+The second argument is the part of
 the test to run."""
 
 import math

@@ -87,16 +87,9 @@ namespace Supple
     double
     rubbed(const Configuration &configuration) const;
 
-    /** The greatest speed [m/s] at which a place slips that friction can hold, and that at which
-     * one slips that it can't; collective. */
-    std::pair<double, double>
-    slip_speeds(const Configuration &configuration) const;
-
-    bool
-    has_friction() const
-    {
-      return friction.any();
-    }
+    /** The greatest speed at which a place creeps that friction holds; collective [m/s]. */
+    double
+    creep(const Configuration &configuration) const;
 
     void
     connect(const SymmetricPattern &pattern) override;
@@ -198,13 +191,12 @@ namespace Supple
     std::vector<ContactPair>
     pairs(const double *u, const Passage &passage) const;
 
-    /** Adds what the forces at one end of a step do as the tools go from one place to another. */
+    /** Adds what the forces at the end of a step, or at its start, do on the way of the tools. */
     void
     add_works(std::vector<double> &works,
               const Vector &displacement,
-              const Passage &at,
-              const Passage &from,
-              const Passage &to,
+              const Passage &step,
+              bool at_end,
               double weight) const;
 
     std::vector<Friction::Slip>
