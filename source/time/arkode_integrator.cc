@@ -59,6 +59,11 @@ namespace Supple
     ARKStepSVtolerances(memory, set_tolerances(), absolute_tolerances);
     if (!settings.is_explicit())
       {
+        if (model.forces.contact())
+          contact_stages = std::make_unique<ContactStages>(
+            model, equation, context, failure, memory, [this](const double at) {
+              return time_of(at);
+            });
         set_linear_systems();
         tie_linear_tolerance(!linear);
       }
@@ -306,9 +311,6 @@ namespace Supple
     // The force at the end of a stage follows from the solution of its equation.
     ARKStepSetDeduceImplicitRhs(memory, 1);
     ARKStepSetPredictorMethod(memory, 0);
-    if (model.forces.contact())
-      contact_stages = std::make_unique<ContactStages>(
-        model, equation, context, failure, memory, [this](const double at) { return time_of(at); });
     set_linear(settings.method == Method::backward_euler || split || model.forces.are_linear());
   }
 
