@@ -143,9 +143,9 @@ def rest():
     runner.check(balance(history) < 1e-12, f"falling: energies out of balance by {balance(history)}")
     columns = ["total", "dissipated", "contact", "px", "pz", "ly"]
     for settings, ranks in (({"Solver/Method": "cg-ml"}, 2), ({"Solver/Method": "cg-ml"}, 4), ({"Solver/Threads": 2}, 1)):
-        other = simulate(CUBE, {**exact, **settings}, ranks)
+        other = simulate(CUBE, {**exact, **settings, "Time/Steps": 25}, ranks)  # it touches at 7
         for table, names in (("history.csv", columns), ("tool_floor.csv", ["fx", "fz", "tx", "min_gap", "work"])):
-            difference = runner.largest_difference(rest.table(table), other.table(table), names)
+            difference = runner.largest_difference(rest.table(table)[:26], other.table(table), names)
             runner.check(difference < 1e-8, f"{settings} on {ranks} processes: {table} differs by {difference}")
     for scene, tool in ((CUBE, "floor"), (INCLINE, "plane"), (NEEDLE, "needle")):
         whole = simulate(scene, exact)
