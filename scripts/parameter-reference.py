@@ -25,6 +25,9 @@ SUBJECTS = {
     "Constraints": "What is held.",
     "Motion": "What is moved as prescribed: up to four, in Motion, Motion 2, Motion 3 and Motion 4.",
     "Loads": "What pulls and pushes.",
+    "Contact": "How the body and rigid tools keep each other out.",
+    "Tool NAME": "A rigid body that moves as prescribed and that the body can't enter: any number, each in a subsection with "
+                 "its name.",
     "Start": "Displacement and velocity at the beginning.",
     "Time": "From where to where, in which steps, by which method.",
     "Solver": "How the linear systems are solved.",
@@ -60,8 +63,8 @@ def short(text):
 
 
 def base(section):
-    """Motion 2 is declared as Motion is."""
-    return re.sub(r" \d+$", "", section)
+    """Motion 2 is declared as Motion is, and each tool as the example."""
+    return re.sub(r"^Tool .*", "Tool NAME", re.sub(r" \d+$", "", section))
 
 
 def declared(program):
@@ -105,7 +108,7 @@ def anchor(heading):
 
 
 def file_of(section):
-    return section.lower() + ".md"
+    return section.split()[0].lower() + ".md"
 
 
 def scenes_line(scenes, most=6):

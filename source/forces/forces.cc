@@ -1,5 +1,6 @@
 #include <supple/forces/forces.h>
 
+#include <supple/forces/contact.h>
 #include <supple/forces/dead_loads.h>
 #include <supple/forces/gravity.h>
 #include <supple/forces/pressure.h>
@@ -36,6 +37,8 @@ namespace Supple
                  const CorotationParameters &corotation,
                  const DampingParameters &damping,
                  const LoadParameters &loads,
+                 const ContactParameters &contact,
+                 const std::vector<ToolParameters> &tools,
                  const ParameterFile &scene)
     : body(body)
   {
@@ -48,7 +51,16 @@ namespace Supple
     for (const Maker &make : load_makers)
       if (std::unique_ptr<Force> load = make(body, loads, scene))
         add(std::move(load));
+    if (!tools.empty())
+      {
+        auto of_all = std::make_unique<Contact>(body, contact, tools, scene);
+        of_tools    = of_all.get();
+        add(std::move(of_all));
+      }
   }
+
+
+  Forces::~Forces() = default;
 
 
   void
@@ -73,6 +85,13 @@ namespace Supple
   Forces::are_linear() const
   {
     return !any([](const Force &force) { return !force.is_linear(); });
+  }
+
+
+  bool
+  Forces::others_than_contact_are_linear() const
+  {
+    return !any([this](const Force &force) { return &force != of_tools && !force.is_linear(); });
   }
 
 
@@ -188,18 +207,22 @@ namespace Supple
                    Deformation &deformation) const
   {
     deformation                = of_cells->deformation(configuration);
-    std::vector<double> energy = {deformation.elastic, 0.}; // elastic, potential
+    std::vector<double> energy = {deformation.elastic, 0., 0.}; // elastic, potential, contact
     for (const auto &force : list)
       {
         const EnergyAccount account = force->account();
         const bool is_elastic       = account == EnergyAccount::elastic;
-        if (force.get() != of_cells && (is_elastic || account == EnergyAccount::potential))
-          energy[is_elastic ? 0 : 1] +=
+        const bool is_contact       = account == EnergyAccount::contact;
+        if (force.get() != of_cells &&
+            (is_elastic || is_contact || account == EnergyAccount::potential))
+          energy[is_elastic   ? 0
+                 : is_contact ? 2
+                              : 1] +=
             (force->is_load() ? load_factor : 1.) * force->energy(configuration, time);
       }
     std::vector<double> all(energy.size());
     Utilities::MPI::sum(energy, body.mesh.communicator, all);
-    return {all[0], all[1]};
+    return {all[0], all[1], all[2]};
   }
 
 

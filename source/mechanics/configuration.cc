@@ -124,8 +124,9 @@ namespace Supple
 
 
   void
-  Configuration::begin_step()
+  Configuration::begin_step(const double time)
   {
+    passage        = {time, time, 1.};
     start          = state;
     start_internal = internal;
     in_step        = true;
@@ -143,6 +144,7 @@ namespace Supple
   Configuration::reject(Effort &effort)
   {
     AssertThrow(in_step, ExcMessage("no step was begun"));
+    passage  = {passage.from, passage.from, 1.};
     state    = start;
     internal = start_internal;
     update_rotations(effort);
@@ -180,7 +182,7 @@ namespace Supple
       }
     if (const unsigned int n = law.n_internal_variables(); n > 0)
       scatter(body, saved.at("internal_variables"), n, numbers_of(internal, n));
-    begin_step();
+    begin_step(passage.to);
     accept();
     update_rotations(effort);
   }

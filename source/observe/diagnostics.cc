@@ -1,5 +1,6 @@
 #include <supple/observe/diagnostics.h>
 
+#include <supple/forces/contact.h>
 #include <supple/mechanics/rotation.h>
 
 #include <deal.II/base/mpi.h>
@@ -8,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace Supple
 {
@@ -93,20 +96,32 @@ namespace Supple
   nlohmann::json
   Diagnostics::save() const
   {
-    return {{"elastic", elastic},
-            {"total", total},
-            {"dissipated", dissipated},
-            {"most_dissipated", most_dissipated},
-            {"work", work},
-            {"largest_energy", largest_energy},
-            {"energy_rises", worst.energy_rises},
-            {"energy_risen", worst.energy_risen},
-            {"energy_gained", worst.energy_gained},
-            {"motion_energy", worst.motion_energy},
-            {"most_inverted", worst.most_inverted},
-            {"min_volume_ratio", worst.min_volume_ratio},
-            {"max_volume_ratio", worst.max_volume_ratio},
-            {"not_finite", worst.not_finite}};
+    nlohmann::json saved = {{"elastic", elastic},
+                            {"total", total},
+                            {"dissipated", dissipated},
+                            {"most_dissipated", most_dissipated},
+                            {"work", work},
+                            {"largest_energy", largest_energy},
+                            {"energy_rises", worst.energy_rises},
+                            {"energy_risen", worst.energy_risen},
+                            {"energy_gained", worst.energy_gained},
+                            {"motion_energy", worst.motion_energy},
+                            {"most_inverted", worst.most_inverted},
+                            {"min_volume_ratio", worst.min_volume_ratio},
+                            {"max_volume_ratio", worst.max_volume_ratio},
+                            {"not_finite", worst.not_finite}};
+    if (forces.contact())
+      {
+        std::vector<double> works;
+        for (const ToolReport &tool : contact.tools)
+          works.push_back(tool.work);
+        saved["contact"] = {{"energy", contact.energy},
+                            {"rubbed", contact.rubbed},
+                            {"works", works},
+                            {"releases", worst.releases},
+                            {"gaps", worst.gaps}};
+      }
+    return saved;
   }
 
 
@@ -128,6 +143,20 @@ namespace Supple
     worst.min_volume_ratio = saved.at("min_volume_ratio");
     worst.max_volume_ratio = saved.at("max_volume_ratio");
     worst.not_finite       = saved.at("not_finite");
+    if (forces.contact())
+      {
+        const nlohmann::json &of_tools = saved.at("contact");
+        contact.energy                 = of_tools.at("energy");
+        contact.rubbed                 = of_tools.at("rubbed");
+        worst.releases                 = of_tools.at("releases");
+        worst.gaps                     = of_tools.at("gaps").get<std::vector<double>>();
+        contact.tools.clear();
+        for (const double work : of_tools.at("works"))
+          {
+            contact.tools.emplace_back();
+            contact.tools.back().work = work;
+          }
+      }
   }
 
 
@@ -169,8 +198,42 @@ namespace Supple
     result.potential        = energies.potential;
     result.min_volume_ratio = Utilities::MPI::min(deformation.min_volume_ratio, communicator);
     result.max_volume_ratio = Utilities::MPI::max(deformation.max_volume_ratio, communicator);
-    result.total            = result.kinetic + result.elastic + result.potential;
+    result.total            = result.kinetic + result.elastic + result.potential + energies.contact;
+    if (forces.contact())
+      {
+        result.contact.emplace();
+        result.contact->energy = energies.contact;
+      }
     return result;
+  }
+
+
+  void
+  Diagnostics::measure_contact(Measurement::Contact &now, const StepReport &report) const
+  {
+    now.tools   = forces.contact()->reports(configuration);
+    now.rubbed  = contact.rubbed + report.rubbed;
+    now.min_gap = now.tools[0].gap;
+    now.creep   = forces.contact()->creep(configuration);
+    for (std::size_t t = 0; t < now.tools.size(); ++t)
+      {
+        now.min_gap = std::min(now.min_gap, now.tools[t].gap);
+        if (t < contact.tools.size())
+          now.tools[t].work = contact.tools[t].work;
+        if (t < report.tool_works.size())
+          now.tools[t].work += report.tool_works[t];
+      }
+  }
+
+
+  void
+  Diagnostics::note_contact(const Measurement::Contact &now)
+  {
+    worst.releases += contact.energy > 0. && now.energy == 0.;
+    worst.gaps.resize(now.tools.size(), std::numeric_limits<double>::max());
+    for (std::size_t t = 0; t < now.tools.size(); ++t)
+      worst.gaps[t] = std::min(worst.gaps[t], now.tools[t].gap);
+    contact = now;
   }
 
 
@@ -187,10 +250,18 @@ namespace Supple
     result.newton_iterations = report.newton_iterations;
     result.linear_iterations = report.linear_iterations;
     result.seconds           = seconds;
+    if (result.contact)
+      measure_contact(*result.contact, report);
 
-    result.dissipated = dissipated;
+    result.dissipated = dissipated - (stationary ? 0. : report.rubbed);
     if (!first && report.expended)
-      result.dissipated += *report.expended - (result.elastic - elastic);
+      {
+        result.dissipated += *report.expended - (result.elastic - elastic);
+        if (result.contact) // the tools have paid for a part of it
+          result.dissipated += std::accumulate(report.tool_works.begin(),
+                                               report.tool_works.end(),
+                                               contact.energy - result.contact->energy);
+      }
     else if (!first && !stationary)
       result.dissipated += report.load_work - (result.total - total);
     else if (!first)
@@ -203,6 +274,8 @@ namespace Supple
       }
 
     note_extremes(result, first || stationary ? 0. : result.total - total - report.load_work);
+    if (result.contact)
+      note_contact(*result.contact);
     dissipated = result.dissipated;
     work       = result.work;
     elastic    = result.elastic;

@@ -2,6 +2,7 @@
 
 #include <supple/base/files.h>
 #include <supple/base/text.h>
+#include <supple/forces/contact.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -16,13 +17,13 @@ namespace Supple
   using namespace dealii;
 
   Frames::Frames(const Configuration &configuration,
-                 const ElasticForce &elastic,
+                 const Forces &forces,
                  const OutputParameters &parameters,
                  const std::string &folder,
                  const CellErrors *const errors,
                  const bool of_all_frames)
     : configuration(configuration)
-    , elastic(elastic)
+    , forces(forces)
     , body(configuration.body)
     , parameters(parameters)
     , folder(folder)
@@ -124,7 +125,7 @@ namespace Supple
   Frames::fields(const unsigned int step)
   {
     if (!cells || step_of_cells != step)
-      cells.emplace(configuration, elastic);
+      cells.emplace(configuration, forces.elastic());
     step_of_cells = step;
     return *cells;
   }
@@ -189,12 +190,16 @@ namespace Supple
   {
     const State &state      = configuration.state;
     const bool errors_known = errors && errors->step == now.step && !errors->of_cells.empty();
+    Vector pressure;
+    if (forces.contact())
+      pressure = forces.contact()->pressure(configuration);
     const Drawing drawing{now.time,
                           now.step,
                           state.displacement,
                           state.has_velocity() ? &state.velocity : nullptr,
                           fields(now.step),
-                          errors_known ? &errors->of_cells : nullptr};
+                          errors_known ? &errors->of_cells : nullptr,
+                          forces.contact() ? &pressure : nullptr};
     write_pieces(drawing, name);
     if (film)
       film->write(drawing);

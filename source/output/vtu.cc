@@ -93,6 +93,14 @@ namespace Supple
         velocity = at_points(*drawing.velocity);
         now.of_points.push_back({"velocity", 3, &velocity});
       }
+    std::vector<float> pressure;
+    if (drawing.contact_pressure)
+      {
+        for (const std::vector<float> numbers = at_points(*drawing.contact_pressure);
+             pressure.size() < nodes.size();)
+          pressure.push_back(numbers[3 * pressure.size()]);
+        now.of_points.push_back({"contact_pressure", 1, &pressure});
+      }
     std::vector<std::vector<float>> fields;
     const auto named = drawing.cells.named();
     fields.reserve(named.size() + 1);

@@ -17,6 +17,8 @@ namespace Supple
     StudyParameters study;
     IdentificationParameters identification;
     ParameterHandler scene_entries, study_entries, identification_entries;
+    parameters.tools.emplace_back(); // as an example
+    parameters.tools.back().name = "NAME";
     parameters.declare(scene_entries);
     study.declare(study_entries);
     identification.declare(identification_entries);

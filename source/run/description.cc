@@ -2,6 +2,7 @@
 
 #include <supple/base/progress.h>
 #include <supple/base/text.h>
+#include <supple/forces/contact.h>
 #include <supple/scene/idle_entries.h>
 
 #include <deal.II/base/mpi.h>
@@ -195,6 +196,7 @@ namespace Supple
       list.push_back("Nothing was left to do: step " + std::to_string(course.now.step) +
                      " of the run to go on from is at or beyond the end that is asked for "
                      "(subsection Time).");
+    list.insert(list.end(), problem.warnings.begin(), problem.warnings.end());
     if (!problem.constraints.free_pieces_in_words().empty())
       list.push_back(problem.constraints.free_pieces_in_words());
     if (problem.constraints.n_held == body.n_dofs())
@@ -227,7 +229,7 @@ namespace Supple
       list.push_back(
         "Backward differentiation of an order above 2 (Time/Maximum order) is not "
         "stable for oscillations that hardly decay: these may grow without bounds.");
-    for (const auto &more : {warnings_of_motion(), warnings_of_solver()})
+    for (const auto &more : {warnings_of_motion(), warnings_of_contact(), warnings_of_solver()})
       list.insert(list.end(), more.begin(), more.end());
     return list;
   }
@@ -260,6 +262,35 @@ namespace Supple
                      "min(t/0.1, 1), or take shorter ones.");
     const std::vector<std::string> skipped = pulses.warnings();
     list.insert(list.end(), skipped.begin(), skipped.end());
+    return list;
+  }
+
+
+  std::vector<std::string>
+  Description::warnings_of_contact() const
+  {
+    const Contact *const contact = problem.forces.contact();
+    const Extremes &worst        = diagnostics.extremes();
+    std::vector<std::string> list;
+    if (!contact || worst.gaps.empty())
+      return list;
+    for (std::size_t t = 0; t < worst.gaps.size() && integrator.finished(); ++t)
+      {
+        const Tool &tool = contact->all_tools()[t];
+        if (worst.gaps[t] >= tool.reach)
+          list.push_back("The tool " + tool.parameters.name +
+                         " never touched the body: it came no nearer than " +
+                         digits(worst.gaps[t] - tool.reach, 3) + " m.");
+      }
+    const TimeMethod method = problem.parameters.time.method;
+    const bool is_free =
+      problem.constraints.n_held == 0 || !problem.constraints.free_pieces.empty();
+    if (worst.releases > 0 && is_free && !problem.stationary &&
+        (method == TimeMethod::backward_euler || method == TimeMethod::implicit_backward_euler))
+      list.push_back(
+        "The body left a tool that it had touched: how fast it rebounds depends on "
+        "the step, for backward Euler damps what is faster. Halve Time/Step, or take "
+        "Time/Method = trbdf2.");
     return list;
   }
 

@@ -2,6 +2,7 @@
 
 #include <supple/base/error.h>
 #include <supple/base/expression.h>
+#include <supple/forces/contact.h>
 #include <supple/run/time_dependence.h>
 #include <supple/scene/read_scene.h>
 
@@ -26,6 +27,8 @@ namespace Supple
              parameters.corotation,
              parameters.damping,
              parameters.loads,
+             parameters.contact,
+             parameters.tools,
              parameters.file)
     , configuration(body, forces.elastic().cell_law(), !stationary)
     , implicit_operator(body,
@@ -45,6 +48,11 @@ namespace Supple
     dealii::MultithreadInfo::set_thread_limit(body.n_threads); // deal.II's vectors have as many
     require_held_body();
     create_initial_state();
+    if (forces.contact())
+      {
+        forces.contact()->require_clear(configuration, parameters.file);
+        warnings = forces.contact()->warnings_of_start(configuration);
+      }
   }
 
 

@@ -198,12 +198,15 @@ namespace Supple
     listeners.add(space.get());
     listeners.add(results.add<ProfileTables>(
       history && !profiles.empty(), effort, profiles, parameters.probes.profile_every));
-    listeners.add(results.add<HistoryTable>(history, effort, space_of_frames));
+    listeners.add(
+      results.add<HistoryTable>(history, effort, !parameters.tools.empty(), space_of_frames));
+    listeners.add(
+      results.add<ToolTables>(history && !parameters.tools.empty(), effort, parameters.tools));
     listeners.add(results.add<ProbeTable>(history && !probes.empty(), effort, probes));
     listeners.add(frames = results.add<FrameWriter>(results.writes_frames,
                                                     effort,
                                                     problem.configuration,
-                                                    problem.forces.elastic(),
+                                                    problem.forces,
                                                     parameters.output,
                                                     space ? &space->of_cells() : nullptr,
                                                     of_frames));

@@ -76,18 +76,21 @@ namespace Supple
     what_was_built(const Summary &summary)
     {
       const Effort &effort = summary.effort;
-      return {{"mass_matrix", summary.has_mass},
-              {"damping_matrix", summary.damped},
-              {"rotations_computed", effort.rotations_computed},
-              {"assemblies", effort.assemblies},
-              {"cells_warped", effort.cells_warped},
-              {"factorizations", effort.factorizations},
-              {"multigrid_hierarchies", effort.hierarchies},
-              {"parallel", summary.size.ranks > 1},
-              {"energies_measured", summary.observed},
-              {"history", summary.history},
-              {"probes", summary.probes},
-              {"frames", summary.frames}};
+      Json built           = {{"mass_matrix", summary.has_mass},
+                              {"damping_matrix", summary.damped},
+                              {"rotations_computed", effort.rotations_computed},
+                              {"assemblies", effort.assemblies},
+                              {"cells_warped", effort.cells_warped},
+                              {"factorizations", effort.factorizations},
+                              {"multigrid_hierarchies", effort.hierarchies},
+                              {"parallel", summary.size.ranks > 1},
+                              {"energies_measured", summary.observed},
+                              {"history", summary.history},
+                              {"probes", summary.probes},
+                              {"frames", summary.frames}};
+      if (summary.tools > 0)
+        built["tools"] = summary.tools;
+      return built;
     }
 
 
@@ -104,6 +107,20 @@ namespace Supple
               {"min_volume_ratio", last.min_volume_ratio},
               {"max_volume_ratio", last.max_volume_ratio},
               {"inverted", last.inverted}};
+    }
+
+
+    Json
+    contact(const Summary &summary)
+    {
+      const Measurement::Contact &last = *summary.last.contact;
+      const std::vector<double> &gaps  = summary.extremes.gaps;
+      return {{"min_gap",
+               gaps.empty() ? last.min_gap : *std::min_element(gaps.begin(), gaps.end())},
+              {"energy", last.energy},
+              {"rubbed", last.rubbed},
+              {"creep", last.creep},
+              {"releases", summary.extremes.releases}};
     }
 
 
@@ -233,6 +250,7 @@ namespace Supple
     , size(size_of(model))
     , effort(model.effort)
     , has_mass(model.implicit_operator.has_mass())
+    , tools(parameters.tools.size())
     , damped(model.damping.any())
     , pilots(parameters.mesh.refinement.pilots)
   {
@@ -293,10 +311,12 @@ namespace Supple
     json["distance_from_shape"]  = distance_from_shape;
     json["relative_to_diameter"] = {{"distance_from_rest", distance_from_rest / size.diameter},
                                     {"distance_from_shape", distance_from_shape / size.diameter}};
-    json["built"]                = what_was_built(*this);
-    json["versions"]             = {{"supple", SUPPLE_VERSION},
-                                    {"deal.II", DEAL_II_PACKAGE_VERSION},
-                                    {"SUNDIALS", SUNDIALS_VERSION}};
+    if (last.contact)
+      json["contact"] = contact(*this);
+    json["built"]    = what_was_built(*this);
+    json["versions"] = {{"supple", SUPPLE_VERSION},
+                        {"deal.II", DEAL_II_PACKAGE_VERSION},
+                        {"SUNDIALS", SUNDIALS_VERSION}};
     return json;
   }
 

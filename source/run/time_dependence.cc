@@ -214,6 +214,11 @@ namespace Supple
     for (unsigned int m = 0; m < parameters.motions.size(); ++m)
       if (!parameters.motions[m].of.empty())
         add(motion_section(m) + "/Displacement", parameters.motions[m].displacement);
+    for (const ToolParameters &tool : parameters.tools)
+      {
+        add(tool.section() + "/Position", tool.position);
+        add(tool.section() + "/Rotation", tool.rotation);
+      }
     return list;
   }
 

@@ -43,9 +43,9 @@ namespace Supple
   namespace
   {
     std::vector<std::string>
-    history_columns(const bool with_space_error)
+    history_columns(const bool with_contact, const bool with_space_error)
     {
-      std::vector<std::string> names = Measurement::column_names();
+      std::vector<std::string> names = Measurement::column_names(with_contact);
       if (with_space_error)
         names.push_back("space_error");
       return names;
@@ -55,8 +55,9 @@ namespace Supple
 
   HistoryTable::HistoryTable(const std::string &folder,
                              Effort &effort,
+                             const bool with_contact,
                              const SpaceEstimate *const space)
-    : StateTable(folder, effort, files()[0], history_columns(space != nullptr))
+    : StateTable(folder, effort, files()[0], history_columns(with_contact, space != nullptr))
     , space(space)
   {
   }
@@ -76,6 +77,67 @@ namespace Supple
     if (space)
       row.push_back(space->of_work_after(now.measurement.step));
     return row;
+  }
+
+
+  ToolTables::ToolTables(const std::string &folder,
+                         Effort &effort,
+                         const std::vector<ToolParameters> &tools)
+    : Writer(folder, effort)
+    , tools(tools)
+  {
+  }
+
+
+  std::vector<std::string>
+  ToolTables::files()
+  {
+    return {"tool_*.csv"};
+  }
+
+
+  void
+  ToolTables::open(const bool resumed, const unsigned int step)
+  {
+    const std::vector<std::string> columns = {"step",
+                                              "time",
+                                              "x",
+                                              "y",
+                                              "z",
+                                              "fx",
+                                              "fy",
+                                              "fz",
+                                              "tx",
+                                              "ty",
+                                              "tz",
+                                              "work",
+                                              "depth",
+                                              "min_gap",
+                                              "area"};
+    for (const ToolParameters &tool : tools)
+      {
+        const std::string file = folder + "/tool_" + tool.name + ".csv";
+        tables.push_back(resumed ? std::make_unique<CsvFile>(file, step + 1ul)
+                                 : std::make_unique<CsvFile>(file, columns));
+      }
+  }
+
+
+  bool
+  ToolTables::after_step(const Observation &now)
+  {
+    const PhaseTimer timer(effort, Phase::output);
+    for (std::size_t t = 0; t < tables.size(); ++t)
+      {
+        const ToolReport &tool  = now.measurement.contact->tools[t];
+        std::vector<double> row = {double(now.measurement.step), now.measurement.time};
+        for (const auto *vector : {&tool.place, &tool.force, &tool.torque})
+          for (unsigned int i = 0; i < 3; ++i)
+            row.push_back((*vector)[i]);
+        row.insert(row.end(), {tool.work, tool.depth, tool.gap, tool.area});
+        tables[t]->write_row(row);
+      }
+    return true;
   }
 
 
@@ -196,12 +258,12 @@ namespace Supple
   FrameWriter::FrameWriter(const std::string &folder,
                            Effort &effort,
                            const Configuration &configuration,
-                           const ElasticForce &elastic,
+                           const Forces &forces,
                            const OutputParameters &parameters,
                            const CellErrors *const errors,
                            const bool of_all_frames)
     : Writer(folder, effort)
-    , frames(configuration, elastic, parameters, folder, errors, of_all_frames)
+    , frames(configuration, forces, parameters, folder, errors, of_all_frames)
   {
   }
 

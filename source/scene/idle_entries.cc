@@ -149,6 +149,33 @@ namespace Supple
 
 
     std::vector<Rule>
+    rules_of_contact(const Parameters &scene)
+    {
+      using Shape             = ToolParameters::Shape;
+      std::vector<Rule> rules = {
+        {scene.tools.empty(),
+         "there is no subsection Tool.",
+         {"Contact/Stiffness", "Contact/Reach", "Contact/Guard", "Contact/Slip resolution"}},
+        {std::all_of(scene.tools.begin(),
+                     scene.tools.end(),
+                     [](const ToolParameters &tool) { return tool.friction == 0.; }),
+         "no tool has friction.",
+         {"Contact/Slip resolution"}}};
+      for (const ToolParameters &tool : scene.tools)
+        {
+          const std::string name = tool.section();
+          rules.push_back(
+            {tool.shape != Shape::plane, name + "/Shape is not plane.", {name + "/Normal"}});
+          rules.push_back(
+            {tool.shape != Shape::capsule, name + "/Shape is not capsule.", {name + "/Axis"}});
+          rules.push_back(
+            {tool.shape == Shape::plane, name + "/Shape is plane.", {name + "/Radius"}});
+        }
+      return rules;
+    }
+
+
+    std::vector<Rule>
     all_rules(const Parameters &scene)
     {
       std::vector<Rule> rules;
@@ -160,6 +187,7 @@ namespace Supple
                                rules_of_loads(scene.loads, scene.start),
                                rules_of_material(scene),
                                rules_of_time(scene.time),
+                               rules_of_contact(scene),
                                rules_of_output(scene.output, scene.space, scene.probes)})
         rules.insert(rules.end(), more.begin(), more.end());
       return rules;

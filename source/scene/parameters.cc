@@ -14,6 +14,9 @@ namespace Supple
     for (unsigned int m = 0; m < motions.size(); ++m)
       motions[m].declare(prm, motion_section(m));
     loads.declare(prm);
+    contact.declare(prm);
+    for (ToolParameters &tool : tools)
+      tool.declare(prm);
     start.declare(prm);
     time.declare(prm);
     solver.declare(prm);

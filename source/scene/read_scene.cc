@@ -117,6 +117,35 @@ namespace Supple
     }
 
 
+    /** Only a method whose steps end with a stage keeps tools out of the body: what others make of
+     * their stages may be within one. */
+    void
+    check_contact(const Parameters &parameters)
+    {
+      const TimeParameters &time = parameters.time;
+      if (parameters.tools.empty() || time.problem == TimeParameters::Problem::stationary)
+        return;
+      for (const ToolParameters &tool : parameters.tools)
+        if (tool.friction > 0. && time.ends_with_stage() && time.order() > 1)
+          throw InputError(parameters.origin(tool.section() + "/Friction") +
+                           ": friction is that of the touches at the start of a step, an error "
+                           "of first order; " +
+                           parameters.origin("Time/Method") +
+                           " would gain nothing. Take backward euler or implicit backward euler.");
+      if (time.method == TimeMethod::esdirk5)
+        throw InputError(parameters.origin("Time/Method") +
+                         ": its first stages go far beyond what comes, so that the energy grows "
+                         "without bounds where tools are met. Take trbdf2, esdirk3 or esdirk4.");
+      if (time.ends_with_stage())
+        return;
+      throw InputError(parameters.origin("Time/Method") + ": with tools (subsection " +
+                       parameters.tools[0].section() +
+                       ") a step must end with an implicit stage, or the body may end within one. "
+                       "Take backward euler, implicit backward euler, trbdf2, esdirk3 or "
+                       "esdirk4.");
+    }
+
+
     /** Whether a nodal force acts on more than a vertex that is chosen. */
     bool
     acts_on_each_vertex(const Parameters &parameters)
@@ -195,6 +224,7 @@ namespace Supple
       parameters.plane.check(parameters.file);
       check_warp_tolerance(parameters);
       check_problem(parameters);
+      check_contact(parameters);
       check_other_meshes(parameters);
     }
   } // namespace
@@ -250,8 +280,9 @@ namespace Supple
   {
     Parameters parameters;
     dealii::ParameterHandler prm;
+    parameters.file  = ParameterFile(file);
+    parameters.tools = tools_of(parameters.file);
     parameters.declare(prm);
-    parameters.file       = ParameterFile(file);
     parameters.scene_name = parameters.file.name();
     parameters.file.parse(prm, overrides);
 

@@ -21,6 +21,7 @@ namespace Supple
     {
     public:
       Recorder(const std::set<std::string> &wanted,
+               const bool with_contact,
                const std::vector<std::string> &probe_columns,
                StudyRecord &record,
                const double budget,
@@ -29,7 +30,7 @@ namespace Supple
         , budget(budget)
         , communicator(communicator)
       {
-        std::vector<std::string> names = Measurement::column_names();
+        std::vector<std::string> names = Measurement::column_names(with_contact);
         n_history                      = names.size();
         names.insert(names.end(), probe_columns.begin(), probe_columns.end());
         for (std::size_t c = 0; c < names.size(); ++c)
@@ -127,7 +128,8 @@ namespace Supple
     scene.checkpoint    = {};    // what goes on lacks the rows before
     Simulation simulation(scene, folder, true, communicator);
 
-    Recorder recorder(wanted, simulation.probe_columns(), record, budget, communicator);
+    Recorder recorder(
+      wanted, !scene.tools.empty(), simulation.probe_columns(), record, budget, communicator);
     try
       {
         simulation.run(&recorder);

@@ -59,6 +59,11 @@ namespace Supple
     ARKStepSVtolerances(memory, set_tolerances(), absolute_tolerances);
     if (!settings.is_explicit())
       {
+        if (model.forces.contact())
+          contact_stages = std::make_unique<ContactStages>(
+            model, equation, context, failure, memory, [this](const double at) {
+              return time_of(at);
+            });
         set_linear_systems();
         tie_linear_tolerance(!linear);
       }
@@ -313,7 +318,7 @@ namespace Supple
   void
   ArkodeIntegrator::set_linear(const bool is_linear)
   {
-    linear = is_linear;
+    linear = is_linear && !contact_stages;
     if (linear)
       {
         ARKStepSetLinear(memory, !split && model.forces.change_operator() ? 1 : 0);

@@ -217,7 +217,7 @@ namespace Supple
   DynamicIntegrator::advance(const bool observed)
   {
     Configuration &configuration = model.configuration;
-    configuration.begin_step();
+    configuration.begin_step(time);
     if ((!started || settings.is_instant(time)) && (observed || guarded))
       set_forces(within_step(time));
     if (observed || guarded)
@@ -364,6 +364,7 @@ namespace Supple
                                                   report.time - report.dt,
                                                   report.time,
                                                   1. - start_weight);
+    add_work_of_tools(report, start_weight);
     if (model.constraints.move())
       {
         // Moved vertices may change their velocity at once: then its mean counts.

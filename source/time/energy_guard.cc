@@ -47,6 +47,6 @@ namespace Supple
                                                        configuration.velocity().begin(),
                                                        momentum.begin());
     return dealii::Utilities::MPI::sum(motion.kinetic, model.body.mesh.communicator) +
-           energies.elastic + energies.potential;
+           energies.elastic + energies.potential + energies.contact;
   }
 } // namespace Supple

@@ -100,7 +100,9 @@ namespace Supple
   EquationOfMotion::set_configuration(const double time, const double *y)
   {
     State &state       = model.configuration.state;
+    Passage &passage   = model.configuration.passage;
     configuration_time = time;
+    passage.to         = time;
     copy_in(state.displacement, y);
     copy_in(state.velocity, y + n);
     if (model.constraints.move())
@@ -110,6 +112,14 @@ namespace Supple
         state.velocity -= shift;
         model.constraints.copy_held(state.displacement, prescribed_displacement);
         model.constraints.copy_held(state.velocity, prescribed_velocity);
+        if (passage.part < 1.)
+          for (const unsigned int dof : model.constraints.owned())
+            {
+              double &u = state.displacement.local_element(dof);
+              const double start =
+                model.configuration.start_of_step().displacement.local_element(dof);
+              u = start + passage.part * (u - start);
+            }
       }
   }
 
@@ -338,6 +348,13 @@ namespace Supple
 
 
   void
+  EquationOfMotion::foresee_increment(const double *const velocities)
+  {
+    copy_in(solution, velocities);
+  }
+
+
+  void
   EquationOfMotion::solve_mass(double *x, const double *b)
   {
     const PhaseTimer timer(model.effort, Phase::solve);
@@ -381,6 +398,16 @@ namespace Supple
         replaced = true;
         assemble();
       }
+  }
+
+
+  void
+  EquationOfMotion::make_definite()
+  {
+    if (tangent != Tangent::consistent || replaced)
+      return;
+    replaced = true;
+    assemble();
   }
 
 

@@ -1,6 +1,7 @@
 #include <supple/time/static_equilibrium.h>
 
 #include <supple/base/error.h>
+#include <supple/time/contact_newton.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -33,6 +34,110 @@ namespace Supple
       operator=(const StrainsForeseen &) = delete;
     };
   } // namespace
+
+
+  /** A load step of which tools are a part. */
+  class StaticEquilibrium::ContactStage : public ImplicitStage
+  {
+  public:
+    ContactStage(StaticEquilibrium &statics, const double load_factor, StepReport &report)
+      : statics(statics)
+      , model(statics.model)
+      , load_factor(load_factor)
+      , report(report)
+      , goal(model.configuration.displacement())
+    {
+      model.configuration.passage.to = load_factor;
+      model.constraints.set_displacement(goal, load_factor);
+    }
+
+    void
+    evaluate() override
+    {
+      statics.update_residual(load_factor);
+      if (!all_finite(statics.residual))
+        throw ComputationError("the forces are not finite any more");
+    }
+
+    const Vector &
+    residual() const override
+    {
+      return statics.free_residual;
+    }
+
+    void
+    prepare(const bool definite) override
+    {
+      const Tangent choice = model.time.tangent;
+      if (!model.forces.have_energy() || choice == Tangent::frozen)
+        statics.assemble(Tangent::frozen, load_factor);
+      else
+        statics.assemble(definite || choice == Tangent::definite ? Tangent::definite
+                                                                 : Tangent::consistent,
+                         load_factor);
+    }
+
+    void
+    solve(Vector &p, const Vector &b) override
+    {
+      statics.count_correction(model.solver.solve(p, b), report);
+    }
+
+    void
+    subtract_product(Vector &b, const Vector &w) override
+    {
+      const GhostValues values(w);
+      sum_into(statics.correction, [&](double *sum) {
+        model.forces.add_product(model.configuration, {0., 0., 1.}, values.data(), sum);
+      });
+      b -= statics.correction;
+    }
+
+    bool
+    foresee(Vector &) override
+    {
+      return false;
+    }
+
+    void
+    keep() override
+    {
+      kept = model.configuration.displacement();
+    }
+
+    void
+    correct(const double part, const Vector &p) override
+    {
+      Vector &displacement = model.configuration.state.displacement;
+      const Vector &start  = model.configuration.start_of_step().displacement;
+      const double arrived = model.configuration.passage.part;
+      displacement         = kept;
+      displacement.add(part, p);
+      for (const unsigned int dof : model.constraints.owned())
+        displacement.local_element(dof) =
+          (1. - arrived) * start.local_element(dof) + arrived * goal.local_element(dof);
+    }
+
+    bool
+    is_done(const Vector &) const override
+    {
+      return statics.is_balanced(load_factor);
+    }
+
+    bool
+    is_linear() const override
+    {
+      return model.forces.others_than_contact_are_linear();
+    }
+
+  private:
+    StaticEquilibrium &statics;
+    const Model &model;
+    const double load_factor;
+    StepReport &report;
+    Vector goal; ///< of what is held [m]
+    Vector kept;
+  };
 
 
   StaticEquilibrium::StaticEquilibrium(const Model &model)
@@ -142,7 +247,7 @@ namespace Supple
     StepReport report;
     report.time = load_factor;
     report.dt   = load_factor - time;
-    configuration.begin_step();
+    configuration.begin_step(time);
     if (observed && !started)
       {
         Effort uncounted; // these forces are for the eye alone
@@ -168,6 +273,7 @@ namespace Supple
         report.load_work = half_work(way);
         set_forces(residual, load_factor);
         report.load_work += half_work(way) + work_of_growth(load_factor - time);
+        add_work_of_tools(report, 0.5);
       }
     started = observed;
     time    = load_factor;
@@ -377,8 +483,22 @@ namespace Supple
 
 
   void
+  StaticEquilibrium::find_equilibrium_in_contact(const double load_factor, StepReport &report)
+  {
+    ContactStage stage(*this, load_factor, report);
+    ContactNewton(model).solve(stage);
+    update_residual(load_factor);
+  }
+
+
+  void
   StaticEquilibrium::find_equilibrium(const double load_factor, StepReport &report)
   {
+    if (model.forces.contact())
+      {
+        find_equilibrium_in_contact(load_factor, report);
+        return;
+      }
     const bool linear = model.forces.are_linear();
 
     if (model.constraints.move())

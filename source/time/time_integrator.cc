@@ -1,5 +1,7 @@
 #include <supple/time/time_integrator.h>
 
+#include <supple/forces/contact.h>
+
 #include <nlohmann/json.hpp>
 
 namespace Supple
@@ -23,6 +25,18 @@ namespace Supple
   TimeIntegrator::load(const nlohmann::json &saved)
   {
     time = saved.at("time");
+  }
+
+
+  void
+  TimeIntegrator::add_work_of_tools(StepReport &report, const double weight) const
+  {
+    if (!model.forces.contact())
+      return;
+    report.tool_works = model.forces.contact()->works(model.configuration, weight);
+    for (const double work : report.tool_works)
+      report.load_work += work;
+    report.rubbed = model.forces.contact()->rubbed(model.configuration);
   }
 
 

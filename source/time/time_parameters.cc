@@ -75,6 +75,24 @@ namespace Supple
 
 
   bool
+  TimeParameters::ends_with_stage() const
+  {
+    switch (method)
+      {
+        case TimeMethod::backward_euler:
+        case TimeMethod::implicit_backward_euler:
+        case TimeMethod::trbdf2:
+        case TimeMethod::esdirk3:
+        case TimeMethod::esdirk4:
+        case TimeMethod::esdirk5:
+          return true;
+        default:
+          return false;
+      }
+  }
+
+
+  bool
   TimeParameters::is_semi_implicit() const
   {
     return method == Method::imex3 || method == Method::imex4 || method == Method::imex5;

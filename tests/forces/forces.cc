@@ -198,6 +198,8 @@ namespace
                parameters.corotation,
                parameters.damping,
                parameters.loads,
+               parameters.contact,
+               parameters.tools,
                parameters.file)
       , link(add_link())
       , configuration(body, forces.elastic().cell_law(), dynamic)
@@ -548,7 +550,7 @@ namespace
     const auto same_rotation = [&] {
       return std::abs(configuration.rotations.current[1].entries[1][0] - entry);
     };
-    configuration.begin_step();
+    configuration.begin_step(0.);
     turn(0.9);
     report_larger("  another state has other rotations", same_rotation(), 0.01);
     configuration.reject(linked.effort);

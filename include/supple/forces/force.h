@@ -13,6 +13,7 @@ namespace Supple
   {
     elastic,   ///< its energy is part of the column elastic
     potential, ///< its energy is part of the column potential
+    contact,   ///< its energy is the column contact
     work,      ///< what it does is part of the column work
     dissipated ///< it has no energy: what it takes is part of the column dissipated
   };

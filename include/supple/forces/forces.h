@@ -1,6 +1,7 @@
 #ifndef supple_forces_h
 #define supple_forces_h
 
+#include <supple/forces/contact_parameters.h>
 #include <supple/forces/elastic_force.h>
 #include <supple/forces/load_parameters.h>
 
@@ -10,11 +11,14 @@
 
 namespace Supple
 {
+  class Contact;
+
   /** Energies of the forces on all processes [J]. */
   struct Energies
   {
     double elastic   = 0.;
     double potential = 0.;
+    double contact   = 0.;
   };
 
 
@@ -31,7 +35,18 @@ namespace Supple
            const CorotationParameters &corotation,
            const DampingParameters &damping,
            const LoadParameters &loads,
+           const ContactParameters &contact,
+           const std::vector<ToolParameters> &tools,
            const ParameterFile &scene);
+
+    ~Forces();
+
+    /** That of rigid tools; null in a scene without them. */
+    Contact *
+    contact() const
+    {
+      return of_tools;
+    }
 
     /** Adds a force; before the operator is made. */
     void
@@ -47,6 +62,10 @@ namespace Supple
     /** Whether all forces are linear in the displacement. */
     bool
     are_linear() const;
+
+    /** Whether all forces but those of tools are linear in the displacement. */
+    bool
+    others_than_contact_are_linear() const;
 
     /** Whether the operator changes with the displacement. */
     bool
@@ -180,6 +199,7 @@ namespace Supple
     const Body &body;
     std::vector<std::unique_ptr<Force>> list; ///< that of the cells first
     ElasticForce *of_cells;
+    Contact *of_tools = nullptr;
     mutable Vector loads; ///< at hand
   };
 } // namespace Supple

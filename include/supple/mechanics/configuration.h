@@ -27,12 +27,22 @@ namespace Supple
   };
 
 
+  /** Where all is that moves as prescribed, held vertices and tools: at a part of the straight way
+   * from its place at one time to that at another. */
+  struct Passage
+  {
+    double from = 0.; ///< the start of the step [s]; the load factor of a static problem
+    double to   = 0.; ///< [s]
+    double part = 1.; ///< less than 1 only within the iterations of contact
+  };
+
+
   /**
    * All that the state of a body is: displacement, velocity, and what its cells remember, which are
    * rotations, the rotations that the operator was made with, and the internal variables of their
    * law. An integrator changes it from one accepted state to the next:
    *
-   *   begin_step();  ... trial states ...  accept() or reject()
+   *   begin_step(time);  ... trial states ...  accept() or reject()
    *
    * Rotations are those of the last update_rotations(). In between, a frozen configuration keeps
    * those of the start of its step, and pressure pushes on the surface as it was there.
@@ -99,9 +109,10 @@ namespace Supple
       return rotations_are == Rotations::frozen ? start.displacement : state.displacement;
     }
 
-    /** Remembers the state, which must have its rotations, as the start of a step. */
+    /** Remembers the state, which must have its rotations, as the start of a step.
+     * @param time of the state [s]; the load factor of a static problem */
     void
-    begin_step();
+    begin_step(double time);
 
     /** At the last begin_step(). */
     const State &
@@ -133,6 +144,7 @@ namespace Supple
 
     const Body &body;
     State state;
+    Passage passage;
     Rotations rotations_are = Rotations::following;
     CellRotations rotations;
     std::vector<Pack> internal; ///< variables of the law, one after the other for each batch

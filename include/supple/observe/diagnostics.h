@@ -19,7 +19,7 @@ namespace Supple
 
   /**
    * Energies, momenta and volumes of the body. In a dynamic problem
-   *   total + dissipated - work
+   *   total + dissipated + rubbed - work
    * stays what it was at the start, up to the tolerance of the linear solver: dissipated is found
    * from what each step expended, not from this balance. It grows all the time with linear and
    * polar rotations.
@@ -53,6 +53,13 @@ namespace Supple
     Measurement
     measure_body(double time, const Vector *momentum) const;
 
+    /** Completes the energy of the barrier by what tools meet, and what they have done. */
+    void
+    measure_contact(Measurement::Contact &now, const StepReport &report) const;
+
+    void
+    note_contact(const Measurement::Contact &contact);
+
     void
     note_extremes(const Measurement &measurement, double rise);
 
@@ -67,6 +74,7 @@ namespace Supple
     double dissipated      = 0.;
     double most_dissipated = 0.; ///< so far
     double work            = 0.;
+    Measurement::Contact contact; ///< of the last step
   };
 } // namespace Supple
 

@@ -1,7 +1,10 @@
 #ifndef supple_measurement_h
 #define supple_measurement_h
 
+#include <supple/forces/tool_report.h>
+
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +21,7 @@ namespace Supple
     double elastic    = 0.; ///< [J]
     double potential  = 0.; ///< of gravity [J], zero at rest position
     double dissipated = 0.; ///< by damping and by the time stepping since the start [J]
-    double total      = 0.; ///< kinetic + elastic + potential [J]
+    double total      = 0.; ///< kinetic + elastic + potential + that of contact [J]
 
     /** Of loads without a potential, of moved vertices and of the change of gravity in time, since
      * the start [J]. */
@@ -34,8 +37,21 @@ namespace Supple
     unsigned int linear_iterations = 0;
     double seconds                 = 0.; ///< since the start of the run
 
+    /** Of the tools that touch the body. */
+    struct Contact
+    {
+      double energy  = 0.; ///< of the barrier, part of `total` [J]
+      double rubbed  = 0.; ///< turned into heat by friction since the start [J]
+      double min_gap = 0.; ///< the least to the core of a tool [m]; never 0 or less
+      double creep   = 0.; ///< the greatest speed of a place that friction could hold [m/s]
+      std::vector<ToolReport> tools;
+    };
+
+    std::optional<Contact> contact; ///< in scenes with tools
+
+    /** @param with_contact whether there are tools */
     static std::vector<std::string>
-    column_names();
+    column_names(bool with_contact);
 
     std::vector<double>
     row() const;
@@ -57,6 +73,8 @@ namespace Supple
     double min_volume_ratio    = 1.;
     double max_volume_ratio    = 1.;
     unsigned int not_finite    = 0; ///< measurements that are not finite: a run ends at the first
+    unsigned int releases = 0; ///< steps in which the body leaves the last tool that it touched
+    std::vector<double> gaps;  ///< the least of each tool [m]
   };
 } // namespace Supple
 

@@ -1,6 +1,7 @@
 #ifndef supple_frames_h
 #define supple_frames_h
 
+#include <supple/forces/forces.h>
 #include <supple/observe/measurement.h>
 #include <supple/observe/space_error.h>
 #include <supple/output/film.h>
@@ -23,7 +24,7 @@ namespace Supple
      * @param errors of the cells, which a frame of that step has too; null if there are none
      * @param of_all_frames whether each frame has them, so that the film has them too */
     Frames(const Configuration &configuration,
-           const ElasticForce &elastic,
+           const Forces &forces,
            const OutputParameters &parameters,
            const std::string &folder,
            const CellErrors *errors,
@@ -101,7 +102,7 @@ namespace Supple
     write_pieces(const Drawing &drawing, const std::string &name) const;
 
     const Configuration &configuration;
-    const ElasticForce &elastic;
+    const Forces &forces;
     const Body &body;
     const OutputParameters &parameters;
     const std::string folder;

@@ -20,7 +20,8 @@ namespace Supple
     const Vector *velocity; ///< null in a static problem
     const CellFields &cells;
     const std::vector<float>
-      *error_in_space; ///< of the cells, by LocalCell::index; null if unknown
+      *error_in_space;              ///< of the cells, by LocalCell::index; null if unknown
+    const Vector *contact_pressure; ///< of nodes, the first of three numbers; null without tools
   };
 
 

@@ -54,6 +54,9 @@ namespace Supple
     warnings_of_motion() const;
 
     std::vector<std::string>
+    warnings_of_contact() const;
+
+    std::vector<std::string>
     warnings_of_solver() const;
 
     /** A warning where cells are less than half or more than twice as large as at rest, or nothing:

@@ -5,6 +5,8 @@
 #include <supple/time/model.h>
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace Supple
 {
@@ -32,6 +34,7 @@ namespace Supple
     Configuration configuration; ///< at the start, until somebody takes a step
     ImplicitOperator implicit_operator;
     const std::unique_ptr<LinearSolver> solver;
+    std::vector<std::string> warnings; ///< of what was found at the start
 
   private:
     /** @throws InputError */

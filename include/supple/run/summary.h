@@ -72,6 +72,7 @@ namespace Supple
     Effort effort;
     std::optional<Spread> spread; ///< of several processes
     bool has_mass             = false;
+    unsigned int tools        = 0; ///< that may touch the body
     bool damped               = false;
     double distance_from_rest = 0.; ///< of the vertex that is farthest from its place at rest [m]
     double distance_from_shape =

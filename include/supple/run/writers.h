@@ -3,6 +3,7 @@
 
 #include <supple/base/csv_file.h>
 #include <supple/base/effort.h>
+#include <supple/forces/contact_parameters.h>
 #include <supple/observe/probes.h>
 #include <supple/observe/profiles.h>
 #include <supple/output/frames.h>
@@ -76,8 +77,12 @@ namespace Supple
   class HistoryTable : public StateTable
   {
   public:
-    /** @param space that estimates the errors of the frames, or null */
-    HistoryTable(const std::string &folder, Effort &effort, const SpaceEstimate *space);
+    /** @param with_contact whether there are tools
+     * @param space that estimates the errors of the frames, or null */
+    HistoryTable(const std::string &folder,
+                 Effort &effort,
+                 bool with_contact,
+                 const SpaceEstimate *space);
 
     static std::vector<std::string>
     files();
@@ -87,6 +92,27 @@ namespace Supple
     row(const Observation &now) const override;
 
     const SpaceEstimate *const space;
+  };
+
+
+  /** What each tool meets: tool_NAME.csv. */
+  class ToolTables : public Writer
+  {
+  public:
+    ToolTables(const std::string &folder, Effort &effort, const std::vector<ToolParameters> &tools);
+
+    static std::vector<std::string>
+    files();
+
+    void
+    open(bool resumed, unsigned int step) override;
+
+    bool
+    after_step(const Observation &now) override;
+
+  private:
+    const std::vector<ToolParameters> &tools;
+    std::vector<std::unique_ptr<CsvFile>> tables; ///< on the first process
   };
 
 
@@ -165,7 +191,7 @@ namespace Supple
     FrameWriter(const std::string &folder,
                 Effort &effort,
                 const Configuration &configuration,
-                const ElasticForce &elastic,
+                const Forces &forces,
                 const OutputParameters &parameters,
                 const CellErrors *errors,
                 bool of_all_frames);

@@ -1,6 +1,7 @@
 #ifndef supple_parameters_h
 #define supple_parameters_h
 
+#include <supple/forces/contact_parameters.h>
 #include <supple/forces/load_parameters.h>
 #include <supple/mechanics/constraint_parameters.h>
 #include <supple/mechanics/material_parameters.h>
@@ -12,6 +13,7 @@
 #include <supple/time/time_parameters.h>
 
 #include <string>
+#include <vector>
 
 namespace Supple
 {
@@ -26,6 +28,8 @@ namespace Supple
     ConstraintParameters constraints;
     Motions motions;
     LoadParameters loads;
+    ContactParameters contact;
+    std::vector<ToolParameters> tools;
     StartParameters start;
     TimeParameters time;
     SolverParameters solver;

@@ -1,6 +1,7 @@
 #ifndef supple_arkode_integrator_h
 #define supple_arkode_integrator_h
 
+#include <supple/time/contact_stages.h>
 #include <supple/time/dynamic_integrator.h>
 
 #include <arkode/arkode_butcher.h>
@@ -203,7 +204,8 @@ namespace Supple
     bool newton_fails      = false; ///< up to the next of them
     bool given_up          = false; ///< up to the next of them: the energy rises
     long newton_iterations = 0;
-    std::optional<StableStep> stable; ///< of an explicit method
+    std::optional<StableStep> stable;              ///< of an explicit method
+    std::unique_ptr<ContactStages> contact_stages; ///< in a scene with tools
   };
 } // namespace Supple
 

@@ -46,7 +46,7 @@ namespace Supple
     get_unknowns(double *y);
 
     /** Sets displacement and velocity of the configuration, held entries included, from the
-     * unknowns. */
+     * unknowns; its passage ends at this time, and held vertices are at its part of their way. */
     void
     set_configuration(double time, const double *y);
 
@@ -90,6 +90,11 @@ namespace Supple
     void
     mass_product(double *y, const double *x);
 
+    /** What M_ff^-1 is about to give: the increment of the velocities, to begin its solution with.
+     */
+    void
+    foresee_increment(const double *velocities);
+
     /** Its inverse. @throws ComputationError */
     void
     solve_mass(double *x, const double *b);
@@ -124,6 +129,10 @@ namespace Supple
      * ComputationError */
     void
     relinearize();
+
+    /** The operator of the last linearize() becomes definite, if it is not in any case. */
+    void
+    make_definite();
 
     /** Prepares solve() for another gamma at the state of the last linearize(). */
     void

@@ -22,6 +22,9 @@ namespace Supple
    * What is out of balance is measured by the loads on the body at rest and by the reactions. Those
    * to a load that follows grow with the displacement without bound: they count up to the forces at
    * the start of the step.
+   *
+   * Where tools may touch the body they move with the load factor, and ContactNewton finds the
+   * equilibrium of each step.
    */
   class StaticEquilibrium : public TimeIntegrator
   {
@@ -41,6 +44,8 @@ namespace Supple
     load(const nlohmann::json &saved) override;
 
   private:
+    class ContactStage;
+
     /** s f - f_int(u), with the rotations updated to u; the held entries are the reactions with a
      * minus sign. */
     void
@@ -101,6 +106,10 @@ namespace Supple
      * the start. */
     bool
     reach_by_foreseen_strains(double load_factor, StepReport &report);
+
+    /** Newton's iterations of a load step in which tools may touch the body. */
+    void
+    find_equilibrium_in_contact(double load_factor, StepReport &report);
 
     /** Newton's iterations of one load step. */
     void

@@ -4,6 +4,7 @@
 #include <supple/linear_algebra/vector.h>
 
 #include <optional>
+#include <vector>
 
 namespace Supple
 {
@@ -15,6 +16,9 @@ namespace Supple
     unsigned int newton_iterations = 0;
     unsigned int linear_iterations = 0;
     double load_work               = 0.; ///< as in Measurement::work, of this step [J]
+
+    std::vector<double> tool_works; ///< of each rigid tool, part of load_work [J]
+    double rubbed = 0.;             ///< what friction on tools turned into heat [J]
 
     /** Estimate, largest over all vertices [m]; where a method has none, not a number. */
     double local_error = 0.;

@@ -75,6 +75,11 @@ namespace Supple
     void
     set_reactions(const Vector &force);
 
+    /** Adds what rigid tools do on their way, with their forces at the start of the step taken by a
+     * weight and those at the end by the rest. Collective. */
+    void
+    add_work_of_tools(StepReport &report, double weight) const;
+
     const Model model;
     double time = 0.; ///< [s]; the load factor of a static problem
 

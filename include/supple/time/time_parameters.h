@@ -92,6 +92,10 @@ namespace Supple
     MatrixUse
     matrix_use() const;
 
+    /** Whether the last implicit stage of a step is its end: those methods are stiffly accurate. */
+    bool
+    ends_with_stage() const;
+
     /** With which power of the step the error falls; of ida its maximum order. */
     unsigned int
     order() const;

@@ -1,0 +1,240 @@
+#ifndef supple_contact_h
+#define supple_contact_h
+
+#include <supple/forces/contact_pairs.h>
+#include <supple/forces/force.h>
+#include <supple/forces/friction.h>
+#include <supple/forces/tool_report.h>
+#include <supple/mechanics/constraints.h>
+
+#include <string>
+#include <vector>
+
+namespace Supple
+{
+  /**
+   * The force by which rigid tools keep the body out. With the gaps g between points of its surface
+   * and tools it is minus the gradient of
+   *
+   *   B = kappa sum w b(g),
+   *
+   * with the barrier b, areas w at rest, and a stiffness kappa [Pa] that stays what it is. No gap
+   * may become zero on the way from one state to the next: see safe_part().
+   *
+   * Friction is that of the touches at the start of a step (Friction); it has no energy that it
+   * gives back.
+   *
+   * A tool touches up to three nodes of a face at once, which share a cell: the pattern of the
+   * operator stays as it is. The tangent is definite in all of its kinds.
+   */
+  class Contact : public Force
+  {
+  public:
+    /** @throws InputError */
+    Contact(const Body &body,
+            const ContactParameters &parameters,
+            const std::vector<ToolParameters> &tools,
+            const ParameterFile &scene);
+
+    std::string
+    name() const override
+    {
+      return "contact";
+    }
+
+    EnergyAccount
+    account() const override
+    {
+      return EnergyAccount::contact;
+    }
+
+    bool
+    is_load() const override
+    {
+      return false;
+    }
+
+    bool
+    is_linear() const override
+    {
+      return false;
+    }
+
+    bool
+    has_tangent() const override
+    {
+      return true;
+    }
+
+    /** With the tools where the passage of the configuration has them, whatever the time. */
+    void
+    add_force(const Configuration &configuration, double time, double *f) const override;
+
+    /** That of the barrier. */
+    double
+    energy(const Configuration &configuration, double time) const override;
+
+    /** To be called before a step is computed: takes the touches that friction acts in. */
+    void
+    begin_step(const Configuration &configuration);
+
+    /** Energy of the barrier and potential of friction: that of which the force is the gradient;
+     * this process's part [J]. */
+    double
+    potential(const Configuration &configuration) const;
+
+    /** What friction has turned into heat in this step; collective [J]. */
+    double
+    rubbed(const Configuration &configuration) const;
+
+    /** The greatest speed at which a place creeps that friction holds; collective [m/s]. */
+    double
+    creep(const Configuration &configuration) const;
+
+    void
+    connect(const SymmetricPattern &pattern) override;
+
+    void
+    update_tangent(Tangent tangent,
+                   const Configuration &configuration,
+                   double time,
+                   double part) override;
+
+    void
+    add_product(const Configuration &configuration,
+                const TangentFactors &factors,
+                const double *w,
+                double *y) const override;
+
+    void
+    add_tangent(const Configuration &configuration,
+                const TangentFactors &factors,
+                SymmetricBlockMatrix &A) const override;
+
+    /** f += what the force changes by, to first order, when the tools go on to a part of their way.
+     */
+    void
+    add_advance(const Configuration &configuration, double part, double *f) const;
+
+    /** Whether a tool has another pose at the end of a passage than at its beginning. */
+    bool
+    tools_move(const Passage &passage) const;
+
+    /** Whether the barrier acts anywhere, or friction; collective. */
+    bool
+    acts(const Configuration &configuration) const;
+
+    /** Whether the last update_tangent() found anything to act; collective. */
+    bool
+    has_stiffness() const;
+
+    /**
+     * The largest part, up to 1, of a way of all nodes [m] on which no gap falls below a tenth of
+     * what it is, while the tools go on to a part of theirs: by steps as long as the distance
+     * allows, the additive continuous collision detection of Li, Kaufman and Jiang, ACM Trans.
+     * Graphics 40 (2021) 104. Collective.
+     */
+    double
+    safe_part(const Configuration &configuration, const Vector &way, double part) const;
+
+    /** What the tools meet; collective. */
+    std::vector<ToolReport>
+    reports(const Configuration &configuration) const;
+
+    /** What each tool does on its way in a step, with its force at the start taken by @p weight and
+     * that at the end by the rest; collective [J]. */
+    std::vector<double>
+    works(const Configuration &configuration, double weight) const;
+
+    /** The pressure of all tools on each node, over its share of the surface, as the first of its
+     * three numbers [Pa]. */
+    Vector
+    pressure(const Configuration &configuration) const;
+
+    /** @throws InputError if the body or a part of it is within a tool, or the other way round;
+     * collective */
+    void
+    require_clear(const Configuration &configuration, const ParameterFile &scene) const;
+
+    /** @throws ComputationError if a vertex that is held in all directions ends within a tool:
+     * there is no such state. Collective. */
+    void
+    require_room(const Passage &passage, const Constraints &constraints) const;
+
+    /** What a user should know of the start, in sentences; collective. */
+    std::vector<std::string>
+    warnings_of_start(const Configuration &configuration) const;
+
+    const std::vector<Tool> &
+    all_tools() const
+    {
+      return tools;
+    }
+
+  private:
+    /** The place of the surface that is nearest to a tool. */
+    struct Nearest
+    {
+      double gap;          ///< [m]
+      double edge;         ///< the longest there [m]
+      unsigned int vertex; ///< one there, by its index in the mesh
+    };
+
+    /** Collective. @param u displacement of all local nodes [m] */
+    Nearest
+    nearest(const double *u, const PlacedTool &tool) const;
+
+    std::vector<PlacedTool>
+    placed_tools(const Passage &passage) const;
+
+    /** @param u displacement of all local nodes [m] */
+    std::vector<ContactPair>
+    pairs(const double *u, const Passage &passage) const;
+
+    /** Adds what the forces at the end of a step, or at its start, do on the way of the tools. */
+    void
+    add_works(std::vector<double> &works,
+              const Vector &displacement,
+              const Passage &step,
+              bool at_end,
+              double weight) const;
+
+    std::vector<Friction::Slip>
+    slips(const double *u, const Passage &passage) const;
+
+    /** kappa w f: what multiplies the barrier of a pair [N/m]. */
+    double
+    factor(const ContactPair &pair) const
+    {
+      return stiffness * pair.weight * pair.factor;
+    }
+
+    /** On the surface [N]. */
+    Arrow
+    force_of(const ContactPair &pair) const;
+
+    /** f += the force of a pair on the nodes of its part. */
+    void
+    add_force(const ContactPair &pair, double *f) const;
+
+    /** f += the force at the place of a pair on the nodes of its part. */
+    static void
+    spread(const ContactPair &pair, const Arrow &force, double *f);
+
+    struct Stiffness
+    {
+      const SurfacePart *part;
+      PartMatrix matrix; ///< [N/m]
+    };
+
+    const Body &body;
+    const double guard;
+    const double stiffness; ///< kappa [Pa]
+    ContactSurface surface;
+    std::vector<Tool> tools;
+    std::vector<Stiffness> tangent;
+    Friction friction;
+  };
+} // namespace Supple
+
+#endif

@@ -1,0 +1,65 @@
+#ifndef supple_contact_parameters_h
+#define supple_contact_parameters_h
+
+#include <supple/input/parameter_file.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/tensor.h>
+
+#include <string>
+#include <vector>
+
+namespace Supple
+{
+  /** Subsection Contact: how the body and the tools keep each other out. */
+  struct ContactParameters
+  {
+    double stiffness       = 0.; ///< of the barrier [Pa]; 0: by the material
+    double reach           = 0.; ///< of the barrier [m]; 0: by the mesh
+    double guard           = 0.1;
+    double slip_resolution = 1e-3; ///< below this speed friction sticks [m/s]
+
+    void
+    declare(dealii::ParameterHandler &prm);
+  };
+
+
+  /** Subsections Tool NAME: a rigid body that moves as prescribed. */
+  struct ToolParameters
+  {
+    enum class Shape
+    {
+      plane,
+      sphere,
+      capsule
+    };
+
+    std::string name;
+    Shape shape          = Shape::sphere;
+    std::string position = "0; 0; 0";          ///< of its reference point in time [m]
+    std::string rotation = "0; 0; 0";          ///< about that point: axis times angle [degrees]
+    dealii::Tensor<1, 3> normal{{0., 0., 1.}}; ///< of a plane, toward the body
+    dealii::Tensor<1, 3> axis{{0., 0., 0.1}};  ///< of a capsule, from its tip on [m]
+    double radius   = 0.01;                    ///< [m]
+    double friction = 0.;                      ///< coefficient of Coulomb's law
+
+    void
+    declare(dealii::ParameterHandler &prm);
+
+    /** The subsection of this tool. */
+    std::string
+    section() const;
+
+    /** @throws InputError for a tool of no size */
+    void
+    check(const ParameterFile &scene) const;
+  };
+
+
+  /** Those of which a parameter file has a subsection, by name. @throws InputError for a name that
+   * can't be part of the name of a file */
+  std::vector<ToolParameters>
+  tools_of(const ParameterFile &scene);
+} // namespace Supple
+
+#endif

@@ -1,0 +1,98 @@
+#ifndef supple_friction_h
+#define supple_friction_h
+
+#include <supple/forces/contact_pairs.h>
+
+#include <functional>
+#include <vector>
+
+namespace Supple
+{
+  /**
+   * Coulomb's friction of a step, made smooth (Li et al., ACM Trans. Graphics 39 (2020) 49): where
+   * the surface and a tool touched at its start, the slip s is how far they have moved along each
+   * other since. With the slip resolution v of a step dt, h = v dt and y = |s|,
+   *
+   *   D = sum mu lambda f0(y),   f0 = y^2/h - y^3/(3 h^2) + h/3 for y < h, or else y,
+   *
+   * is a potential of the friction -mu lambda f0'(y) s/y, with normal forces lambda and normals of
+   * the start of the step.
+   */
+  class Friction
+  {
+  public:
+    /** @param coefficients mu of each tool
+     * @param slip_resolution v [m/s] */
+    Friction(const std::vector<double> &coefficients, double slip_resolution);
+
+    /** Whether any tool has friction. */
+    bool
+    any() const;
+
+    /** Whether there were touches on this process at the start of the step. */
+    bool
+    acts() const
+    {
+      return !touches.empty();
+    }
+
+    /** Where surface and tools touch at the start of a step, with the forces [N]. */
+    using Touches = std::vector<std::pair<ContactPair, double>>;
+
+    /** Begins a step. @param surface_places of the touches [m] */
+    void
+    begin_step(const Touches &touches, const std::vector<Arrow> &surface_places);
+
+    /** How a place of a touch has moved so far. */
+    struct Slip
+    {
+      const ContactPair *pair; ///< at the start of the step
+      double limit;            ///< mu lambda [N]
+      Arrow way;               ///< s [m]
+      double resolution;       ///< h [m]
+
+      /** D [J] */
+      double
+      potential() const;
+
+      /** On the surface [N]. */
+      Arrow
+      force() const;
+
+      /** Minus the derivative of the force by the place on the surface [N/m]: definite. */
+      dealii::Tensor<2, 3>
+      stiffness() const;
+
+      /** What has become heat [J]. */
+      double
+      heat() const;
+
+    private:
+      /** mu lambda f0'/y [N/m] */
+      double
+      secant() const;
+    };
+
+    /** Slips now. @param places of a pair: now on the surface, and where its place on the tool is
+     * [m]
+     * @param duration since the start of the step [s] */
+    using Places = std::function<std::pair<Arrow, Arrow>(const ContactPair &)>;
+
+    std::vector<Slip>
+    slips(const Places &places, double duration) const;
+
+  private:
+    struct Touch
+    {
+      ContactPair pair;
+      double limit;
+      Arrow place; ///< on the surface at the start of the step [m]
+    };
+
+    const std::vector<double> coefficients;
+    const double slip_resolution;
+    std::vector<Touch> touches;
+  };
+} // namespace Supple
+
+#endif

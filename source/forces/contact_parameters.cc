@@ -1,0 +1,147 @@
+#include <supple/forces/contact_parameters.h>
+
+#include <supple/base/error.h>
+#include <supple/input/entries.h>
+
+#include <regex>
+
+namespace Supple
+{
+  using dealii::ParameterHandler;
+  using namespace Entries;
+
+  namespace
+  {
+    const std::string tool_word = "Tool ";
+  }
+
+
+  void
+  ContactParameters::declare(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Contact");
+    add(prm,
+        "Stiffness",
+        stiffness,
+        "Pa",
+        Range::at_least(0),
+        "Pressure of the barrier between the body and tools where half of its reach is left, "
+        "roughly. 0: ten times the Young's modulus of the stiffest material. A softer one is "
+        "pressed deeper; far below Young's modulus the steps fail.");
+    add(prm,
+        "Reach",
+        reach,
+        "m",
+        Range::at_least(0),
+        "Thickness of the barrier: a body touches a tool where their surfaces meet, and enters it "
+        "by less than this. 0: a thousandth of the body's diameter, but no more than a tenth of "
+        "the shortest edge of its surface. Of a tool it is at most half the radius.");
+    add(prm,
+        "Guard",
+        guard,
+        "none",
+        Range::between(0, infinity),
+        "Part of the barrier that acts on vertices and edges, and on the ends of tools, beside "
+        "that which is spread over the surface. They keep tools out that are thinner than a cell; "
+        "for large ones 0.01 gives pressures that are smoother.");
+    add(prm,
+        "Slip resolution",
+        slip_resolution,
+        "m/s",
+        Range::between(0, infinity),
+        "Speed below which friction holds less than it can: what should stick creeps by a part of "
+        "it.");
+    prm.leave_subsection();
+  }
+
+
+  void
+  ToolParameters::declare(ParameterHandler &prm)
+  {
+    prm.enter_subsection(section());
+    add_choice(prm,
+               "Shape",
+               shape,
+               {{"plane", Shape::plane}, {"sphere", Shape::sphere}, {"capsule", Shape::capsule}},
+               "A plane with all that is behind it; a sphere; or a capsule, a needle with round "
+               "ends.");
+    add(prm,
+        "Position",
+        position,
+        "m",
+        Range::expressions(3),
+        "Where its reference point is in time: a point of the plane, the center of the sphere, the "
+        "center of the capsule's round tip. In a static problem t is the load factor, from 0 to "
+        "1.");
+    add(prm,
+        "Rotation",
+        rotation,
+        "degrees",
+        Range::expressions(3),
+        "How the tool is turned about its reference point in time: the axis, as long as the "
+        "angle.");
+    add(prm,
+        "Normal",
+        normal,
+        "none",
+        RangeList::three(Range::finite()),
+        "Direction from the plane toward the body, before the rotation.");
+    add(prm,
+        "Axis",
+        axis,
+        "m",
+        RangeList::three(Range::finite()),
+        "From the center of the capsule's tip to that of its other end, before the rotation.");
+    add(prm,
+        "Radius",
+        radius,
+        "m",
+        Range::between(0, infinity),
+        "Radius of the sphere or the capsule.");
+    add(prm,
+        "Friction",
+        friction,
+        "none",
+        Range::at_least(0),
+        "Coefficient of Coulomb friction on this tool.");
+    prm.leave_subsection();
+  }
+
+
+  std::string
+  ToolParameters::section() const
+  {
+    return tool_word + name;
+  }
+
+
+  void
+  ToolParameters::check(const ParameterFile &scene) const
+  {
+    if (shape == Shape::plane && normal.norm() == 0.)
+      throw InputError(scene.origin(section() + "/Normal") +
+                       ": a plane needs a direction toward the body; it must not be 0, 0, 0.");
+    if (shape == Shape::capsule && axis.norm() == 0.)
+      throw InputError(scene.origin(section() + "/Axis") +
+                       ": a capsule of no length is a sphere: take Shape = sphere.");
+  }
+
+
+  std::vector<ToolParameters>
+  tools_of(const ParameterFile &scene)
+  {
+    std::vector<ToolParameters> tools;
+    for (const auto &[section, place] : scene.sections())
+      {
+        if (section.rfind(tool_word, 0) != 0)
+          continue;
+        tools.emplace_back();
+        tools.back().name = section.substr(tool_word.size());
+        if (!std::regex_match(tools.back().name, std::regex("[A-Za-z_][A-Za-z_0-9-]*")))
+          throw InputError(place + ": subsection " + section +
+                           ": the name of a tool has letters, digits, - and _, and begins with a "
+                           "letter; its table is tool_NAME.csv.");
+      }
+    return tools;
+  }
+} // namespace Supple

@@ -1,0 +1,99 @@
+#include <supple/forces/friction.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Supple
+{
+  using dealii::outer_product;
+  using dealii::Tensor;
+  using dealii::unit_symmetric_tensor;
+
+  Friction::Friction(const std::vector<double> &coefficients, const double slip_resolution)
+    : coefficients(coefficients)
+    , slip_resolution(slip_resolution)
+  {
+  }
+
+
+  bool
+  Friction::any() const
+  {
+    return std::any_of(coefficients.begin(), coefficients.end(), [](const double mu) {
+      return mu > 0.;
+    });
+  }
+
+
+  void
+  Friction::begin_step(const Touches &list, const std::vector<Arrow> &surface_places)
+  {
+    touches.clear();
+    for (std::size_t k = 0; k < list.size(); ++k)
+      {
+        const auto &[pair, force] = list[k];
+        const double limit        = coefficients[pair.tool] * force;
+        if (limit > 0.)
+          touches.push_back({pair, limit, surface_places[k]});
+      }
+  }
+
+
+  std::vector<Friction::Slip>
+  Friction::slips(const Places &places, const double duration) const
+  {
+    std::vector<Slip> slips;
+    for (const Touch &touch : touches)
+      {
+        const auto &[on_surface, on_tool] = places(touch.pair);
+        const Arrow way                   = on_surface - touch.place - (on_tool - touch.pair.place);
+        const Arrow &n                    = touch.pair.normal;
+        slips.push_back(
+          {&touch.pair, touch.limit, way - (n * way) * n, slip_resolution * duration});
+      }
+    return slips;
+  }
+
+
+  double
+  Friction::Slip::secant() const
+  {
+    const double y = way.norm(), h = resolution;
+    return limit * (y < h ? (2. - y / h) / h : 1. / y);
+  }
+
+
+  double
+  Friction::Slip::potential() const
+  {
+    const double y = way.norm(), h = resolution;
+    return limit * (y < h ? y * y / h * (1. - y / (3. * h)) + h / 3. : y);
+  }
+
+
+  Arrow
+  Friction::Slip::force() const
+  {
+    return -secant() * way;
+  }
+
+
+  Tensor<2, 3>
+  Friction::Slip::stiffness() const
+  {
+    const double y = way.norm(), h = resolution;
+    const Arrow &n = pair->normal;
+    Tensor<2, 3> result =
+      secant() * (Tensor<2, 3>(unit_symmetric_tensor<3>()) - outer_product(n, n));
+    if (y > 0.)
+      result -= limit / (y * (y < h ? h * h : y * y)) * outer_product(way, way);
+    return result;
+  }
+
+
+  double
+  Friction::Slip::heat() const
+  {
+    return secant() * way.norm_square();
+  }
+} // namespace Supple

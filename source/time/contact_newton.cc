@@ -1,0 +1,210 @@
+#include <supple/time/contact_newton.h>
+
+#include <supple/base/error.h>
+#include <supple/base/text.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace Supple
+{
+  using namespace dealii;
+
+  ContactNewton::ContactNewton(const Model &model)
+    : model(model)
+    , contact(*model.forces.contact())
+  {
+    for (Vector *vector : {&correction, &way, &right_side, &contact_force})
+      model.body.initialize(*vector);
+  }
+
+
+  void
+  ContactNewton::solve(ImplicitStage &stage)
+  {
+    const Configuration &configuration = model.configuration;
+    contact.require_room(configuration.passage, model.constraints);
+    contact.begin_step(configuration);
+    choose_passage(stage);
+    warm_up(stage);
+    for (unsigned int n = 0; n < model.time.newton_limit; ++n)
+      {
+        const bool touched = contact.acts(configuration);
+        const bool arrived = configuration.passage.part == 1.;
+        stage.keep();
+        find_correction(stage);
+        ++n_iterations;
+
+        const double safe = contact.safe_part(configuration, way, 1.);
+        const bool last   = arrived && safe == 1. && stage.is_done(correction);
+        const bool free   = safe == 1. && !touched && stage.is_linear();
+        if (!arrived || last || free)
+          {
+            advance(stage, safe);
+            if (last || (free && !contact.acts(configuration)))
+              return;
+            stage.evaluate();
+          }
+        else
+          search(stage, safe);
+      }
+    throw_not_done();
+  }
+
+
+  void
+  ContactNewton::choose_passage(ImplicitStage &stage)
+  {
+    Configuration &configuration = model.configuration;
+    Passage &passage             = configuration.passage;
+    const auto place_at          = [&](const double part) {
+      passage.part = part;
+      stage.correct(0., correction);
+    };
+    correction = 0.;
+    stage.keep();
+    place_at(0.);
+    way = 0.;
+    add_way_of_held(way);
+    const bool still = !contact.tools_move(passage) && way.linfty_norm() == 0.;
+    const bool safe  = still || contact.safe_part(configuration, way, 1.) == 1.;
+    if (safe)
+      place_at(1.);
+    if (!still && safe && contact.acts(configuration))
+      place_at(0.);
+    stage.evaluate();
+  }
+
+
+  void
+  ContactNewton::warm_up(ImplicitStage &stage)
+  {
+    const Configuration &configuration = model.configuration;
+    if (!contact.acts(configuration) || !stage.foresee(correction))
+      return;
+    const double safe = contact.safe_part(configuration, correction, configuration.passage.part);
+    stage.keep();
+    stage.correct(safe == 1. ? 1. : 0.5 * safe, correction);
+    stage.evaluate();
+  }
+
+
+  void
+  ContactNewton::add_way_of_held(Vector &sum) const
+  {
+    const Configuration &configuration = model.configuration;
+    const Passage &passage             = configuration.passage;
+    if (!model.constraints.move() || passage.part == 1.)
+      return;
+    Vector goal = configuration.displacement();
+    model.constraints.set_displacement(goal, passage.to);
+    goal -= configuration.displacement();
+    sum += goal;
+  }
+
+
+  void
+  ContactNewton::find_correction(ImplicitStage &stage)
+  {
+    const Configuration &configuration = model.configuration;
+    const bool arrived                 = configuration.passage.part == 1.;
+    const auto solve                   = [&](const bool definite) {
+      stage.prepare(definite);
+      right_side = stage.residual();
+      way        = 0.;
+      if (!arrived)
+        {
+          add_way_of_held(way);
+          stage.subtract_product(right_side, way);
+          sum_into(contact_force,
+                   [&](double *sum) { contact.add_advance(configuration, 1., sum); });
+          right_side += contact_force;
+          model.constraints.set_zero(right_side);
+        }
+      stage.solve(correction, right_side);
+      way += correction;
+    };
+    try
+      {
+        solve(false);
+      }
+    catch (const ComputationError &)
+      {
+        solve(true);
+        return;
+      }
+    if (arrived && stage.residual() * correction < 0.)
+      solve(true);
+  }
+
+
+  void
+  ContactNewton::advance(ImplicitStage &stage, const double part)
+  {
+    Passage &passage = model.configuration.passage;
+    passage.part     = part == 1. ? 1. : passage.part + part * (1. - passage.part);
+    stage.correct(part, correction);
+  }
+
+
+  ContactNewton::Slope
+  ContactNewton::slope(const ImplicitStage &stage)
+  {
+    const Configuration &configuration = model.configuration;
+    const MPI_Comm communicator        = model.body.mesh.communicator;
+    sum_into(contact_force,
+             [&](double *sum) { contact.add_force(configuration, configuration.passage.to, sum); });
+    model.constraints.set_zero(contact_force);
+    const double energy = contact.potential(configuration);
+    return {Utilities::MPI::sum(energy, communicator),
+            stage.residual() * correction - contact_force * correction,
+            stage.residual().l2_norm()};
+  }
+
+
+  void
+  ContactNewton::search(ImplicitStage &stage, const double safe)
+  {
+    constexpr double sufficient = 1e-4, round_off = 1e-13, shortest = 1e-9;
+
+    const Slope before = slope(stage);
+    const double fall  = stage.residual() * correction;
+    for (double part = safe; part > shortest * safe; part *= 0.5)
+      {
+        stage.correct(part, correction);
+        stage.evaluate();
+        const Slope after = slope(stage);
+        const double change =
+          after.contact - before.contact - 0.5 * part * (before.others + after.others);
+        // Near the end the energy changes by less than it is accurate; the forces tell more.
+        if (change <= round_off * std::abs(before.contact) - sufficient * part * fall ||
+            after.residual <= before.residual)
+          return;
+      }
+    throw ComputationError(
+      "no part of Newton's correction lowers the energy of the body and what "
+      "it touches");
+  }
+
+
+  void
+  ContactNewton::throw_not_done() const
+  {
+    std::string nearest;
+    double least                          = std::numeric_limits<double>::max();
+    const std::vector<ToolReport> reports = contact.reports(model.configuration);
+    for (unsigned int t = 0; t < reports.size(); ++t)
+      if (reports[t].gap < least)
+        {
+          nearest = contact.all_tools()[t].parameters.name;
+          least   = reports[t].gap;
+        }
+    throw ComputationError("Newton's method is not done after " +
+                           std::to_string(model.time.newton_limit) +
+                           " iterations (Time/Newton iterations); the nearest tool is " + nearest +
+                           ", with a gap of " + digits(least, 2) + " m");
+  }
+} // namespace Supple

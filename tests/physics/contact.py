@@ -1,0 +1,193 @@
+"""Tools that touch the body: Hertz's force, friction on an incline, impact, weight, and tools that stay outside whatever happens.
+The second argument is the part of
+the test to run."""
+
+import math
+import pathlib
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import runner
+
+CONTACT = runner.ROOT / "parameters" / "contact"
+HERTZ, INCLINE, BOUNCE, SKIN = [CONTACT / f"{name}.prm" for name in ("hertz", "incline", "bounce", "needle-skin")]
+folder = pathlib.Path(tempfile.mkdtemp(prefix="supple-"))
+quiet = {"Output/Frames": "none", "Output/Report": "false"}
+CUBE = folder / "cube.prm"
+CUBE.write_text("""# a soft cube above a floor
+subsection Mesh
+  set Box origin = 0, 0, 0.02
+  set Box size   = 0.1, 0.1, 0.1
+  set Box cubes  = 3, 3, 3
+end
+subsection Material
+  set Young modulus = 1e5
+  set Poisson ratio = 0.3
+  set Density       = 1000
+end
+subsection Loads
+  set Gravity = 0, 0, -9.81
+end
+subsection Tool floor
+  set Shape = plane
+end
+subsection Time
+  set Step  = 0.01
+  set Steps = 60
+end
+""")
+NEEDLE = folder / "needle.prm"
+NEEDLE.write_text("""# a needle thinner than a cell is pushed into a block
+subsection Mesh
+  set Box origin = -0.05, -0.05, -0.1
+  set Box size   = 0.1, 0.1, 0.1
+  set Box cubes  = 4, 4, 4
+end
+subsection Material
+  set Young modulus = 1e5
+  set Poisson ratio = 0.3
+  set Density       = 1000
+end
+subsection Constraints
+  set Clamped boundaries = 4
+end
+subsection Tool needle
+  set Shape    = capsule
+  set Radius   = 0.001
+  set Axis     = 0.02, 0, 0.1
+  set Position = 0.005; 0.0035; 0.001 - min(t, 0.02)
+end
+subsection Time
+  set Step  = 0.001
+  set Steps = 22
+end
+""")
+
+
+def simulate(scene, settings=None, ranks=1):
+    results = runner.simulate(scene, {**quiet, **(settings or {})}, ranks=ranks)
+    runner.check(all(row["min_gap"] > 0 for row in results.history()), f"{settings}: the body is within a tool")
+    return results
+
+
+def balance(history):
+    """What is missing in the balance of energies, over the largest of them."""
+    size = max(abs(row[name]) for row in history for name in ("kinetic", "elastic", "potential", "work", "dissipated"))
+    start = history[0]["total"]
+    return max(abs(row["total"] + row["dissipated"] + row["rubbed"] - row["work"] - start) for row in history) / size
+
+
+def hertz():
+    """Hertz: the force of a sphere on a half-space goes with the depth to the power 1.5, on quadratic cells and on linear ones."""
+    for settings, limit in (({}, 0.01), ({"Mesh/Order": 1, "Mesh/Box cubes": "16, 16, 16", "Time/Steps": 2}, 0.035)):
+        for row in simulate(HERTZ, settings).table("tool_sphere.csv")[1:]:
+            exact = 36.630037 * row["time"] ** 1.5
+            runner.check(abs(-4 * row["fz"] / exact - 1) < limit, f"{settings}: {-4 * row['fz']} N instead of {exact} N at {row['time']}")
+
+
+def friction():
+    """A block on an incline slides with g (sin - mu cos), all of the work of friction is heat; a flatter one holds it, but for its creep."""
+    slides = simulate(INCLINE)
+    history, plane = slides.history(), slides.table("tool_plane.csv")
+    a, b = history[40], history[100]
+    acceleration = (b["px"] - a["px"]) / (b["time"] - a["time"])
+    runner.check(abs(acceleration / (3.643338 - 0.3 * 9.108346) - 1) < 1e-6, f"it slides with {acceleration} m/s^2")
+    runner.check(abs(plane[-1]["fx"] / plane[-1]["fz"] + 0.3) < 1e-6 and abs(plane[-1]["fz"] / 9.108346 - 1) < 1e-6, "forces of the plane")
+    way = [row["block.ux"] for row in slides.probes()]
+    rubbed = b["rubbed"] - a["rubbed"]
+    runner.check(abs(rubbed / (0.3 * 9.108346 * (way[100] - way[40])) - 1) < 1e-5, f"{rubbed} J became heat")
+    runner.check(balance(history) < 1e-12, f"sliding: energies out of balance by {balance(history)}")
+    for scale in (1, 10):  # the same in other units
+        settings = {"Loads/Gravity": "1.923879, 0, -9.619397"}
+        if scale != 1:
+            settings = {"Loads/Gravity": "19.23879, 0, -96.19397", "Mesh/Box size": "1, 1, 1", "Material/Density": 10,
+                        "Contact/Slip resolution": 1e-2, "Probes/Points": "block: 1, 1, 1"}
+        holds = simulate(INCLINE, settings)
+        creep = holds.probes()[-1]["block.vx"] / scale
+        exact = 1e-3 * (1 - math.sqrt(1 - 0.2 / 0.3))
+        runner.check(abs(creep / exact - 1) < 1e-5, f"creeps with {creep} m/s instead of {exact} m/s")
+        runner.check(abs(holds.summary()["contact"]["creep"] / scale / exact - 1) < 1e-5, "the creep in summary.json")
+        runner.check(balance(holds.history()) < 1e-9, f"holding: energies out of balance by {balance(holds.history())}")
+
+    # A plane that moves carries the block along; its work becomes motion and heat.
+    carried = simulate(INCLINE, {"Loads/Gravity": "0, 0, -9.81", "Tool plane/Position": "0.2*t^2; 0; 0"})
+    history = carried.history()
+    runner.check(abs(carried.probes()[-1]["block.vx"] / 0.2 - 1) < 0.01, f"{carried.probes()[-1]['block.vx']} m/s on a plane with 0.2 m/s")
+    runner.check(balance(history) < 1e-10 and history[-1]["work"] > 0.9 * 0.5 * 0.2**2, f"carried: {balance(history)}")
+    runner.check(abs(carried.table("tool_plane.csv")[-1]["work"] - history[-1]["work"]) < 1e-12, "work of the tool")
+
+
+def impact():
+    """Impact of a bar: it takes 2 L/c, and gives the momentum back, which then stays what it is."""
+    bounce = simulate(BOUNCE)
+    history = bounce.history()
+    touching = [row["time"] for row in bounce.table("tool_wall.csv") if row["fx"] > 1]
+    runner.check(abs(touching[-1] - touching[0] + 0.001 - 0.02) < 0.0011, f"it touches from {touching[0]} to {touching[-1]} s")
+    runner.check(0.93 < -history[-1]["px"] / history[0]["px"] < 1, f"rebound: {history[-1]['px'] / history[0]['px']}")
+    after = [row["px"] for row in history if row["time"] > touching[-1] + 0.003]
+    runner.check(len(after) > 10 and max(after) - min(after) < 1e-10 * abs(after[0]), "the momentum changes in free flight")
+    impulse = sum(row["fx"] for row in bounce.table("tool_wall.csv")) * 0.001
+    runner.check(abs(impulse / (history[-1]["px"] - history[0]["px"]) - 1) < 0.05, f"impulse {impulse}")
+    warned = " ".join(simulate(BOUNCE, {"Time/Method": "backward euler"}).summary()["warnings"])
+    runner.check("how fast it rebounds depends on the step" in warned, "no warning of backward Euler")
+
+
+def rest():
+    """A cube comes to rest on the floor, which bears its weight; on one, two and four processes, with threads, and after a checkpoint."""
+    exact = {"Solver/Tolerance": 1e-12}
+    rest = simulate(CUBE, exact)
+    history, last = rest.history(), rest.table("tool_floor.csv")[-1]
+    runner.check(abs(last["fz"] / 9.81 - 1) < 1e-8 and abs(last["tx"] / (0.05 * 9.81) - 1) < 1e-7, f"weight: {last}")
+    runner.check(abs(last["area"] / 0.01 - 1) < 0.2 and 0 < last["depth"] < 1e-4, f"area and depth: {last}")
+    runner.check(balance(history) < 1e-12, f"falling: energies out of balance by {balance(history)}")
+    columns = ["total", "dissipated", "contact", "px", "pz", "ly"]
+    for settings, ranks in (({"Solver/Method": "cg-ml"}, 2), ({"Solver/Method": "cg-ml"}, 4), ({"Solver/Threads": 2}, 1)):
+        other = simulate(CUBE, {**exact, **settings, "Time/Steps": 25}, ranks)  # it touches at 7
+        for table, names in (("history.csv", columns), ("tool_floor.csv", ["fx", "fz", "tx", "min_gap", "work"])):
+            difference = runner.largest_difference(rest.table(table)[:26], other.table(table), names)
+            runner.check(difference < 1e-8, f"{settings} on {ranks} processes: {table} differs by {difference}")
+    for scene, tool in ((CUBE, "floor"), (INCLINE, "plane"), (NEEDLE, "needle")):
+        whole = simulate(scene, exact)
+        half = len(whole.history()) // 2
+        resumed = folder / f"resumed-{tool}"
+        for steps in (half, len(whole.history()) - 1):
+            status, _, error = runner.run(scene, "--quiet", "--output", resumed, *runner.overrides(
+                {**quiet, **exact, "Checkpoint/Every": 5, "Checkpoint/Resume": "auto", "Time/Steps": steps}))
+            runner.check(status == 0, error)
+        for table, names in (("history.csv", ["total", "contact", "work", "rubbed", "min_gap"]), (f"tool_{tool}.csv", ["fx", "fz", "ty", "work"])):
+            difference = runner.largest_difference(whole.table(table), runner.Results(resumed).table(table), names)
+            runner.check(difference < 1e-12, f"{tool}: {table} differs by {difference} after a checkpoint")
+
+
+def thin():
+    """A needle thinner than a cell does not pass between vertices, nor does a fall of 50 m/s in steps longer than the body."""
+    needle = simulate(NEEDLE)
+    runner.check(min(row["fz"] for row in needle.table("tool_needle.csv")) < -5, "the needle went through the block")
+    runner.check(balance(needle.history()) < 1e-8, f"needle: energies out of balance by {balance(needle.history())}")
+    thrown = {"Mesh/Box origin": "0, 0, 0.3", "Start/Velocity": "3; 1; -50", "Start/Rotation": "20, 30, 10",
+              "Start/Rotation center": "0.05, 0.05, 0.35", "Time/Steps": 20}
+    for step in (0.07, 0.005):
+        runner.check(balance(simulate(CUBE, {**thrown, "Time/Step": step}).history()) < 1e-10, f"thrown in steps of {step} s")
+
+
+def plane():
+    """A plane body is met by its edges: the same cube, once as a square in plane strain."""
+    SQUARE = folder / "square.prm"
+    SQUARE.write_text(CUBE.read_text().replace("set Box origin = 0, 0, 0.02", "set Shape = rectangle\n  set Rectangle origin = 0, 0.02")
+                      .replace("set Box size   = 0.1, 0.1, 0.1", "set Rectangle size = 0.1, 0.1")
+                      .replace("set Box cubes  = 3, 3, 3", "set Rectangle squares = 3, 3").replace("0, 0, -9.81", "0, -9.81, 0")
+                      .replace("set Shape = plane", "set Shape = plane\n  set Normal = 0, 1, 0"))
+    square = simulate(SQUARE)
+    runner.check(abs(square.table("tool_floor.csv")[-1]["fy"] / 98.1 - 1) < 1e-8, "weight of a plane body")
+    for tool, settings in (("sphere", {}), ("capsule", {"Tool floor/Axis": "0.02, -0.2, 0"})):
+        over = simulate(SQUARE, {"Tool floor/Shape": tool, "Tool floor/Radius": 0.002, "Tool floor/Position": "0.045; 0.01; 0", **settings,
+                                 "Time/Step": 0.002, "Time/Steps": 40})
+        runner.check(max(row["fy"] for row in over.table("tool_floor.csv")) > 1, f"the square passes a {tool} between two vertices")
+
+    # Where nothing touches, a linear body needs a single factorization.
+    far = simulate(CUBE, {"Corotation/Rotation": "none", "Tool floor/Position": "0; 0; -10"})
+    runner.check(far.summary()["built"]["factorizations"] == 1, f"{far.summary()['built']['factorizations']} factorizations far from tools")
+
+
+globals()[sys.argv[2]]()
