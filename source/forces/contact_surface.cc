@@ -82,7 +82,7 @@ namespace Supple
           const unsigned int one = face.nodes[v], other = face.nodes[(v + 1) % 3];
           of_vertex[one] += face.measure / face.n;
           if (face.n == 3)
-            of_edge[{std::min(one, other), std::max(one, other)}] += face.measure / 3.;
+            of_edge[{{std::min(one, other), std::max(one, other)}}] += face.measure / 3.;
         }
     for (unsigned int node = 0; node < body.n_owned; ++node)
       if (of_vertex[node] > 0.)

@@ -44,7 +44,7 @@ namespace Supple
     bool
     invert(const Block &A, Block &inverse)
     {
-      const double d0 = A.rows[0][0];
+      const double d0  = A.rows[0][0];
       const double l10 = A.rows[1][0] / d0, l20 = A.rows[2][0] / d0;
       const double d1  = A.rows[1][1] - l10 * A.rows[1][0];
       const double l21 = (A.rows[2][1] - l20 * A.rows[1][0]) / d1;
@@ -57,9 +57,9 @@ namespace Supple
       const double b00 = e0 + l10 * l10 * e1 + w20 * w20 * e2;
       const double b10 = -l10 * e1 - w20 * l21 * e2, b20 = w20 * e2;
       const double b11 = e1 + l21 * l21 * e2, b21 = -l21 * e2;
-      inverse.rows[0]  = make_row(b00, b10, b20);
-      inverse.rows[1]  = make_row(b10, b11, b21);
-      inverse.rows[2]  = make_row(b20, b21, e2);
+      inverse.rows[0] = make_row(b00, b10, b20);
+      inverse.rows[1] = make_row(b10, b11, b21);
+      inverse.rows[2] = make_row(b20, b21, e2);
       return true;
     }
 
@@ -224,8 +224,8 @@ namespace Supple
         for (unsigned int c = 0; c < 3; ++c)
           L_ki.rows[c][3] = 0.;
         for (unsigned int r = 0; r < 3; ++r)
-          diagonal.rows[r] -= y.rows[r][0] * L_ki.rows[0] + y.rows[r][1] * L_ki.rows[1] +
-                              y.rows[r][2] * L_ki.rows[2];
+          diagonal.rows[r] -=
+            y.rows[r][0] * L_ki.rows[0] + y.rows[r][1] * L_ki.rows[1] + y.rows[r][2] * L_ki.rows[2];
       }
     return invert(diagonal, inverse_diagonal[row]);
   }

@@ -28,8 +28,8 @@ namespace Supple
     using SparseMatrix = Eigen::SparseMatrix<double>;
 
     /**
-     * CHOLMOD's factorization on one process. The rows of A below the diagonal are, read by columns,
-     * the upper triangle that Eigen wants.
+     * CHOLMOD's factorization on one process. The rows of A below the diagonal are, read by
+     * columns, the upper triangle that Eigen wants.
      */
     class CholmodSolver : public LinearSolver
     {

@@ -15,10 +15,10 @@ namespace Supple
   {
     // Up to how many unknowns a factorization is quicker than multigrid, measured on the bar
     // (doc/performance.md). What counts is for how many solutions one factor serves.
-    constexpr unsigned int limit_of_one_system    = 1000;
-    constexpr unsigned int limit_of_some_systems  = 1500;
-    constexpr unsigned int limit_of_many_systems  = 8000;
-    constexpr unsigned int limit_of_constant      = 25000;
+    constexpr unsigned int limit_of_one_system   = 1000;
+    constexpr unsigned int limit_of_some_systems = 1500;
+    constexpr unsigned int limit_of_many_systems = 8000;
+    constexpr unsigned int limit_of_constant     = 25000;
 
     // In the plane factors stay thin: of 151762 unknowns one takes 0.5 s.
     constexpr unsigned int limit_in_plane = 300000;
@@ -71,13 +71,13 @@ namespace Supple
       const unsigned int limit  = A.body.mesh.section.plane() ? limit_in_plane
                                   : constant                  ? limit_of_constant
                                                               : limit_of(use);
-      reason = std::to_string(n_dofs) + " unknowns, " +
+      reason                    = std::to_string(n_dofs) + " unknowns, " +
                (n_dofs <= limit ? "at most " : "more than ") + std::to_string(limit) +
-               (A.body.mesh.section.plane()        ? ", in the plane"
-                : constant                         ? ", the operator never changes"
-                : use == MatrixUse::one_system     ? ", a matrix for each solution"
-                : use == MatrixUse::some_systems   ? ", some solutions with each matrix"
-                                                   : ", many solutions with each matrix");
+               (A.body.mesh.section.plane()      ? ", in the plane"
+                : constant                       ? ", the operator never changes"
+                : use == MatrixUse::one_system   ? ", a matrix for each solution"
+                : use == MatrixUse::some_systems ? ", some solutions with each matrix"
+                                                 : ", many solutions with each matrix");
       return n_dofs <= limit ? Method::ldlt : multigrid(A);
     }
 

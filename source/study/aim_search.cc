@@ -34,8 +34,8 @@ namespace Supple
      * take milliseconds it is their set-up that counts. */
     constexpr double longest_search = 8., shortest_search = 3.;
 
-    /** What the error in time may have of an aim that is about the mesh too: short steps are cheaper
-     * than small cells. With the orders q of the method and p of the cells it would be
+    /** What the error in time may have of an aim that is about the mesh too: short steps are
+     * cheaper than small cells. With the orders q of the method and p of the cells it would be
      * (1/q) / (1/q + 3/p). */
     constexpr double share_of_time = 0.15;
 
@@ -131,8 +131,7 @@ namespace Supple
   {
     output.say("Aim " + percent(whole_aim) + " of scene " + plan.base.scene_name +
                (is_stationary() ? ": finer meshes, in space alone"
-                                : ": " + std::to_string(list.size()) +
-                                    " methods, and a reference" +
+                                : ": " + std::to_string(list.size()) + " methods, and a reference" +
                                     (plan.aims_at_mesh ? ", and finer meshes" : "")));
     runner.check(plan.base);
     for (const Candidate &candidate : list)
@@ -158,7 +157,7 @@ namespace Supple
       earlier.push_back("meshes/" + name);
     output.open(earlier, [this] {
       write_whole_file(output.folder + "/study.csv", table.csv());
-      if (plan.aims_at_mesh)
+      if (plan.aims_at_mesh && !is_stationary())
         std::filesystem::create_directories(output.folder + "/meshes");
     });
     output.say("Supple " SUPPLE_VERSION ", the soonest run of " + plan.base.scene_name +
@@ -209,8 +208,7 @@ namespace Supple
     const auto budget_is_spent = [this] {
       const double seconds =
         dealii::Utilities::MPI::max(stopwatch.seconds(), output.communicator); // one answer
-      return seconds - reference_seconds >
-             std::max(shortest_search, longest_search * best_seconds);
+      return seconds - reference_seconds > std::max(shortest_search, longest_search * best_seconds);
     };
     for (Candidate &candidate : list)
       {
@@ -394,8 +392,9 @@ namespace Supple
     // from the nearest order that is known; tolerances of the reference are too tight to begin with
     const Candidate *known = nullptr;
     for (const Candidate &other : list)
-      if (!(candidate.variable_steps && is_of_reference(other)) && other.curve.best(aim) && (candidate.variable_steps == other.variable_steps || !known ||
-                                    other.method.name == candidate.method.name))
+      if (!(candidate.variable_steps && is_of_reference(other)) && other.curve.best(aim) &&
+          (candidate.variable_steps == other.variable_steps || !known ||
+           other.method.name == candidate.method.name))
         known = &other;
     if (candidate.variable_steps)
       return known && known->variable_steps
@@ -513,11 +512,10 @@ namespace Supple
   {
     std::string entries;
     for (const Override &override : run.overrides)
-      entries +=
-        (entries.empty() ? "" : " | ") +
-        (override.entry() == "Time/Relative tolerance" && run.tolerance > 0.
-           ? override.entry() + "=" + digits(run.tolerance, 3)
-           : override.text);
+      entries += (entries.empty() ? "" : " | ") +
+                 (override.entry() == "Time/Relative tolerance" && run.tolerance > 0.
+                    ? override.entry() + "=" + digits(run.tolerance, 3)
+                    : override.text);
     return "Entries for the scene: " + entries;
   }
 
@@ -535,11 +533,11 @@ namespace Supple
     if (plan.aims_at_mesh)
       return sentences;
     const std::string &space = space_errors[&row - table.rows.data()];
-    sentences.push_back(space.empty()
-                          ? "The error in space is not part of the aim, and is not "
-                            "known here (Space/Estimate error)."
-                          : "The error in space is not part of the aim (Study/Aim with mesh): " +
-                              space + ".");
+    sentences.push_back(
+      space.empty()
+        ? "The error in space is not part of the aim, and is not "
+          "known here (Space/Estimate error)."
+        : "The error in space is not part of the aim (Study/Aim with mesh): " + space + ".");
     sentences.push_back("Half the error takes about " + digits(best.curve.price_of_half(), 3) +
                         " times as long.");
     sentences.push_back(entries_of(row.run));
@@ -550,8 +548,8 @@ namespace Supple
   std::vector<std::string>
   AimSearch::result(const MeshSearch::Found &mesh) const
   {
-    return {percent(whole_aim) + (is_stationary() ? "" : " in space and time") + " soonest: " +
-              mesh.run.label() + ", " + std::to_string(mesh.n_cells) + " cells, " +
+    return {percent(whole_aim) + (is_stationary() ? "" : " in space and time") +
+              " soonest: " + mesh.run.label() + ", " + std::to_string(mesh.n_cells) + " cells, " +
               digits(mesh.seconds, 3) + " s.",
             "Error in space " + percent(mesh.error) +
               (mesh.order_is_known ? ", which falls with the power " + digits(mesh.order, 2) +

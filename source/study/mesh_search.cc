@@ -151,10 +151,11 @@ namespace Supple
     found.name        = plan.base.scene_name;
     found.error_names = quantities.error_names();
     found.targets     = {aim};
-    found.facts       = {"The scene's own mesh with its edges cut into parts. Error in space: by the "
-                         "distance from the results on the mesh before (Richardson), where three "
-                         "meshes tell with which order it falls, and with a low order where they do "
-                         "not."};
+    found.facts       = {
+            "The scene's own mesh with its edges cut into parts. Error in space: by the "
+                  "distance from the results on the mesh before (Richardson), where three "
+                  "meshes tell with which order it falls, and with a low order where they do "
+                  "not."};
   }
 
 
@@ -209,8 +210,8 @@ namespace Supple
   void
   MeshSearch::choose_next(Climb &climb) const
   {
-    const double wanted = std::isfinite(climb.ladder.error()) ? climb.ladder.parts_for(aim) :
-                                                                2. * climb.n_parts;
+    const double wanted =
+      std::isfinite(climb.ladder.error()) ? climb.ladder.parts_for(aim) : 2. * climb.n_parts;
     climb.next = 0;
     if (climb.ladder.diverges())
       return;
@@ -240,6 +241,14 @@ namespace Supple
   }
 
 
+  void
+  MeshSearch::add(const StudyRow &row)
+  {
+    found.add(row);
+    after_run(found);
+  }
+
+
   double
   MeshSearch::dimension_of(const Climb &climb,
                            const unsigned int n_parts,
@@ -261,8 +270,8 @@ namespace Supple
     if (!now)
       {
         const bool other_cells = n_parts == 1 && climb.order_of_cells != plan.base.mesh.order;
-        if (!other_cells || row.status != StudyRecord::Status::refused)
-          found.add(row);
+        if (!other_cells || row.status != StudyRecord::Status::refused) // such as in the plane
+          add(row);
         return;
       }
     std::vector<double> distances;
@@ -281,7 +290,7 @@ namespace Supple
     climb.n_cells = now->n_cells;
     climb.seconds = now->seconds;
     seconds += now->seconds;
-    found.add(row);
+    add(row);
     if (!(climb.ladder.error() + method->error <= aim))
       choose_next(climb);
     else if (!best || now->seconds < best->seconds)
@@ -313,7 +322,7 @@ namespace Supple
   {
     std::vector<Climb> climbs;
     for (const unsigned int order_of_cells : {2u, 1u})
-      climbs.push_back({order_of_cells, ladder_of(order_of_cells)});
+      climbs.emplace_back(order_of_cells, ladder_of(order_of_cells));
     for (;;)
       {
         Climb *quickest = nullptr;
@@ -323,7 +332,6 @@ namespace Supple
         if (!quickest)
           return best;
         step(*quickest);
-        after_run(found);
       }
   }
 } // namespace Supple

@@ -97,12 +97,8 @@ namespace Supple
     bool
     is_physical(const std::string &column)
     {
-      return std::set<std::string>{"step",
-                                   "time",
-                                   "dt",
-                                   "seconds",
-                                   "newton_iterations",
-                                   "linear_iterations"}
+      return std::set<std::string>{
+               "step", "time", "dt", "seconds", "newton_iterations", "linear_iterations"}
                .count(column) == 0;
     }
   } // namespace
@@ -149,9 +145,10 @@ namespace Supple
     for (const std::string &name : dealii::Utilities::split_string_list(all, ','))
       {
         if (name == "probes" && points.empty())
-          throw InputError(plan.changed_by_hand({"Probes/Points"}) + place +
-                           ": the scene follows no point (Probes/Points); take " +
-                           (plan.aims_at_mesh ? "energy or a column." : "'final field' or energy."));
+          throw InputError(
+            plan.changed_by_hand({"Probes/Points"}) + place +
+            ": the scene follows no point (Probes/Points); take " +
+            (plan.aims_at_mesh ? "energy or a column." : "'final field' or energy."));
         if (name == "final field" && (plan.aims_at_mesh || !plan.level_references.empty()))
           throw InputError(place +
                            ": on another mesh there are other vertices than those of the "

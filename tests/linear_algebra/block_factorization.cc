@@ -60,7 +60,7 @@ namespace
   dense(const SymmetricBlockMatrix &A)
   {
     const SymmetricPattern &pattern = A.pattern;
-    Eigen::MatrixXd matrix          = Eigen::MatrixXd::Zero(3 * pattern.n_owned, 3 * pattern.n_owned);
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(3 * pattern.n_owned, 3 * pattern.n_owned);
     for (unsigned int row = 0; row < pattern.n_owned; ++row)
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j < 3; ++j)
@@ -91,7 +91,8 @@ namespace
         report(what, definite ? (x - correct).norm() / correct.norm() : 1., 1e-12);
       }
     A.diagonal[9 * (n_nodes / 2) + 4] = -1.;
-    std::printf("  one entry is negative: %s\n", factorization.factorize(A) ? "ACCEPTED" : "refused");
+    std::printf("  one entry is negative: %s\n",
+                factorization.factorize(A) ? "ACCEPTED" : "refused");
     fill(A);
     std::printf("  and mended: %s\n", factorization.factorize(A) ? "accepted" : "REFUSED");
   }

@@ -10,10 +10,10 @@
 namespace Supple
 {
   /**
-   * The factorization A = L D L^T of a symmetric positive definite matrix of 3x3 blocks, with blocks
-   * in L and D too, row by row (the up-looking algorithm of Davis 2005, doi:10.1145/1114268.1114277).
-   * Nodes are ordered by approximate minimum degree, so one index serves nine entries, and the
-   * entries of a row of a block are computed side by side.
+   * The factorization A = L D L^T of a symmetric positive definite matrix of 3x3 blocks, with
+   * blocks in L and D too, row by row (the up-looking algorithm of Davis 2005,
+   * doi:10.1145/1114268.1114277). Nodes are ordered by approximate minimum degree, so one index
+   * serves nine entries, and the entries of a row of a block are computed side by side.
    */
   class BlockFactorization
   {
@@ -70,17 +70,17 @@ namespace Supple
     bool
     factorize_row(const SymmetricBlockMatrix &A, std::uint32_t row);
 
-    const unsigned int n; ///< nodes
-    std::vector<std::uint32_t> node; ///< of each row
+    const unsigned int n;              ///< nodes
+    std::vector<std::uint32_t> node;   ///< of each row
     std::vector<std::uint32_t> row_of; ///< of each node
     std::vector<std::size_t> entry_start, factor_start, column_start;
-    std::vector<Entry> entries;             ///< of A, by rows
-    std::vector<Factor> factors;            ///< of L, by rows
-    std::vector<std::uint32_t> factor_row;  ///< of each block of L, by columns
-    std::vector<Block> L;                   ///< transposed blocks, by columns
-    std::vector<Block> inverse_diagonal;    ///< of D
-    std::vector<Block> row_of_A;            ///< at hand
-    std::vector<Row> solution;              ///< at hand
+    std::vector<Entry> entries;            ///< of A, by rows
+    std::vector<Factor> factors;           ///< of L, by rows
+    std::vector<std::uint32_t> factor_row; ///< of each block of L, by columns
+    std::vector<Block> L;                  ///< transposed blocks, by columns
+    std::vector<Block> inverse_diagonal;   ///< of D
+    std::vector<Block> row_of_A;           ///< at hand
+    std::vector<Row> solution;             ///< at hand
   };
 } // namespace Supple
 

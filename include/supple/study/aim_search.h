@@ -176,7 +176,7 @@ namespace Supple
     std::optional<StudyRecord> reference;
     double reference_error   = 0.; ///< relative
     double reference_seconds = 0.; ///< until the reference was there
-    double best_seconds; ///< of a run that meets the aim, so far
+    double best_seconds;           ///< of a run that meets the aim, so far
     std::vector<Candidate> list;
     std::vector<std::string> space_errors; ///< of each row, in words
     StudyTable table;

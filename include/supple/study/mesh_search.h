@@ -28,8 +28,8 @@ namespace Supple
     add(unsigned int n_parts, double distance);
 
     /** Of the last mesh, relative: d / (r^p - 1) with the distance d from the mesh before, whose
-     * cells are r times as large (Richardson 1911). Infinite while there is one mesh, or where three
-     * meshes show an order below the lowest one. */
+     * cells are r times as large (Richardson 1911). Infinite while there is one mesh, or where
+     * three meshes show an order below the lowest one. */
     double
     error() const;
 
@@ -67,9 +67,9 @@ namespace Supple
 
 
   /**
-   * The soonest mesh on which the error in space of a scene is below an aim: its own mesh with edges
-   * cut into 2, 3, 4, 6, ..., with linear and with quadratic cells, as far as the scene can have
-   * them. The error is found from the distances of the results on three meshes.
+   * The soonest mesh on which the error in space of a scene is below an aim: its own mesh with
+   * edges cut into 2, 3, 4, 6, ..., with linear and with quadratic cells, as far as the scene can
+   * have them. The error is found from the distances of the results on three meshes.
    */
   class MeshSearch
   {
@@ -123,6 +123,12 @@ namespace Supple
     /** The meshes of one order of cells, from coarse to fine. */
     struct Climb
     {
+      Climb(const unsigned int order_of_cells, const MeshLadder &ladder)
+        : order_of_cells(order_of_cells)
+        , ladder(ladder)
+      {
+      }
+
       unsigned int order_of_cells;
       MeshLadder ladder;
       std::optional<StudyRecord> before;
@@ -153,6 +159,10 @@ namespace Supple
     errors(const MeshLadder &ladder,
            const std::vector<double> &distances,
            double error_in_time) const;
+
+    /** Adds a run to the table, and tells of it. */
+    void
+    add(const StudyRow &row);
 
     /** From how the number of cells grows. */
     static double
