@@ -16,14 +16,16 @@ namespace Supple
     Parameters parameters;
     StudyParameters study;
     IdentificationParameters identification;
-    ParameterHandler scene_entries, study_entries, identification_entries;
-    parameters.tools.emplace_back(); // as an example
-    parameters.tools.back().name = "NAME";
+    ToolParameters tool;
+    ParameterHandler scene_entries, tool_entries, study_entries, identification_entries;
+    tool.name = "NAME";
+    tool.declare(tool_entries);
     parameters.declare(scene_entries);
     study.declare(study_entries);
     identification.declare(identification_entries);
     if (format == "json")
       {
+        tool.declare(scene_entries);
         study.declare(scene_entries);
         identification.declare(scene_entries);
         scene_entries.print_parameters(out, ParameterHandler::JSON);
@@ -33,10 +35,13 @@ namespace Supple
 
     // What is printed stays a scene.
     const std::vector<std::pair<std::string, ParameterHandler *>> others = {
-      {"A study", &study_entries}, {"An identification", &identification_entries}};
+      {"A tool is a subsection of the scene, with a name of its own", &tool_entries},
+      {"A study is a file of its own, with this subsection alone", &study_entries},
+      {"An identification is a file of its own, with this subsection alone",
+       &identification_entries}};
     for (const auto &[name, entries] : others)
       {
-        out << "\n# " << name << " is a file of its own, with this subsection alone:\n";
+        out << "\n# " << name << ":\n";
         std::stringstream text;
         entries->print_parameters(text, ParameterHandler::PRM);
         std::string line;

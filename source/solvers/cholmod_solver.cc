@@ -145,7 +145,8 @@ namespace Supple
         factorization.factorize(whole_matrix());
         ++effort.factorizations;
         if (factorization.info() != Eigen::Success)
-          throw ComputationError("the matrix is not positive definite (cholmod)");
+          throw ComputationError(
+            "the matrix is not positive definite, or too badly conditioned to tell (cholmod)");
       }
 
       unsigned int

@@ -148,7 +148,8 @@ namespace Supple
         const bool definite = factorization.factorize(matrix());
         ++effort.factorizations;
         if (!definite)
-          throw ComputationError("the matrix is not positive definite (ldlt)");
+          throw ComputationError(
+            "the matrix is not positive definite, or too badly conditioned to tell (ldlt)");
       }
 
       unsigned int

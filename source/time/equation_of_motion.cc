@@ -292,7 +292,7 @@ namespace Supple
     model.forces.set_dead_loads(force, model.configuration, time);
     model.constraints.set_zero(force);
     if (!all_finite(force))
-      throw ComputationError("the loads are not finite numbers");
+      throw ComputationError("the forces are not finite numbers");
     for (unsigned int i = 0; i < n; ++i)
       f[n + i] += force.local_element(i);
   }

@@ -8,6 +8,7 @@
 // killed.
 
 #include <supple/base/error.h>
+#include <supple/base/lone_process.h>
 #include <supple/input/command_line.h>
 #include <supple/program/tasks.h>
 
@@ -18,6 +19,7 @@
 #include <cstdlib>
 #include <fcntl.h>
 #include <iostream>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <sys/resource.h>
@@ -92,7 +94,9 @@ int
 main(int argc, char **argv)
 {
   int n_names = 1;
+  std::optional<LoneProcess> lone_process(std::in_place);
   dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, argv, 1);
+  lone_process.reset();
   std::signal(SIGPIPE, SIG_IGN);
   dealii::deal_II_exceptions::disable_abort_on_exception();
   const rlim_t seconds = argc > 1 ? std::atoi(argv[1]) : 30,

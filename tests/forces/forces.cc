@@ -211,7 +211,11 @@ namespace
           parameters.corotation,
           dynamic,
           effort)
-      , solver(LinearSolver::create(A, parameters.solver, parameters.file, effort))
+      , solver(LinearSolver::create(A,
+                                    parameters.solver,
+                                    parameters.time.matrix_use(),
+                                    parameters.file,
+                                    effort))
     {
     }
 

@@ -271,7 +271,8 @@ class Fuzzer:
         for folder in (self.out / "runs").iterdir():
             if (folder / "history.csv").exists():
                 for line in (folder / "history.csv").read_text().splitlines()[1:]:
-                    numbers(map(float, line.split(",")), f"history.csv of {folder.name}")
+                    told = filter(None, line.split(",")) # the error in space is told of rows with a frame
+                    numbers(map(float, told), f"history.csv of {folder.name}")
 
     def check_resumed(self, mutant):
         """Half of the run, and the rest from its checkpoint, leave what the whole run leaves."""

@@ -83,8 +83,9 @@ namespace
     for (unsigned int repeat = 0; repeat < 2; ++repeat) // a factorization leaves nothing behind
       {
         fill(A);
-        const bool definite           = factorization.factorize(A);
-        const Eigen::VectorXd b       = Eigen::VectorXd::NullaryExpr(3 * n_nodes, random_number);
+        const bool definite = factorization.factorize(A);
+        const Eigen::VectorXd b =
+          Eigen::VectorXd::NullaryExpr(3 * n_nodes, [] { return random_number(); });
         const Eigen::VectorXd correct = dense(A).ldlt().solve(b);
         Eigen::VectorXd x(3 * n_nodes);
         factorization.solve(x.data(), b.data());
