@@ -83,8 +83,10 @@ def tip_of(program, scene, settings, probe_folder):
     sets = [word for setting in settings for word in ("--set", setting.replace(" = ", "=", 1))]
     call(program, ROOT / "parameters" / f"{scene}.prm", "--quiet", "--set", "Output/Frames=none", "--set", "Output/Report=false", *sets,
          "--output", probe_folder)
+    points = re.search(r"set Points *= (.*)", (probe_folder / "parameters.prm").read_text())[1]
+    names = re.findall(r"([^\s;:]+):", points)
     with open(probe_folder / "probes.csv") as file:
-        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        return [{key: float(value) for key, value in row.items() if key.split(".")[0] in names} for row in csv.DictReader(file)]
 
 
 def distance(run, right):
