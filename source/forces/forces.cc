@@ -121,7 +121,7 @@ namespace Supple
   bool
   Forces::loads_follow() const
   {
-    return any([](const Force &force) { return force.is_load() && !is_dead_load(force); });
+    return any([](const Force &force) { return force.is_load() && !force.is_linear(); });
   }
 
 
@@ -171,6 +171,17 @@ namespace Supple
   Forces::set_dead_loads(Vector &f, const Configuration &configuration, const double time) const
   {
     sum(f, configuration, time, is_dead_load);
+  }
+
+
+  void
+  Forces::set_other_forces(Vector &f,
+                           const Configuration &configuration,
+                           const double time,
+                           Effort &effort) const
+  {
+    const PhaseTimer timer(effort, Phase::forces);
+    sum(f, configuration, time, [](const Force &force) { return !is_dead_load(force); });
   }
 
 

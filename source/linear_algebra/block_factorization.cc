@@ -64,12 +64,12 @@ namespace Supple
     }
 
 
-    /** y x, without x's fourth lane */
+    /** A^T x, for the rows of A */
     template <class Block>
     Row
-    product(const Block &symmetric, const Row &x)
+    transposed_product(const Block &A, const Row &x)
     {
-      return symmetric.rows[0] * x[0] + symmetric.rows[1] * x[1] + symmetric.rows[2] * x[2];
+      return A.rows[0] * x[0] + A.rows[1] * x[1] + A.rows[2] * x[2];
     }
 
 
@@ -209,15 +209,14 @@ namespace Supple
             const Block &L_ji = L[p];
             Block &to         = row_of_A[factor_row[p]];
             for (unsigned int r = 0; r < 3; ++r)
-              to.rows[r] -= y.rows[r][0] * L_ji.rows[0] + y.rows[r][1] * L_ji.rows[1] +
-                            y.rows[r][2] * L_ji.rows[2];
+              to.rows[r] -= transposed_product(L_ji, y.rows[r]);
           }
         // L_ki = y_i D_i^-1; the rows of its transpose are the columns of L_ki
         const Block &inverse = inverse_diagonal[column];
         Block &L_ki          = L[place];
         for (unsigned int r = 0; r < 3; ++r)
           {
-            const Row l = product(inverse, y.rows[r]);
+            const Row l = transposed_product(inverse, y.rows[r]);
             for (unsigned int c = 0; c < 3; ++c)
               L_ki.rows[c][r] = l[c];
           }
@@ -250,8 +249,8 @@ namespace Supple
       {
         const Row value = solution[i];
         for (std::size_t p = column_start[i]; p < column_start[i + 1]; ++p)
-          solution[factor_row[p]] -= product(L[p], value);
-        solution[i] = product(inverse_diagonal[i], value);
+          solution[factor_row[p]] -= transposed_product(L[p], value);
+        solution[i] = transposed_product(inverse_diagonal[i], value);
       }
     for (std::uint32_t i = n; i-- > 0;)
       {

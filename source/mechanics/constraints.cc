@@ -242,6 +242,18 @@ namespace Supple
 
 
   void
+  Constraints::set_held_on_way(Vector &to,
+                               const Vector &start,
+                               const Vector &goal,
+                               const double part) const
+  {
+    for (const unsigned int dof : held_owned)
+      to.local_element(dof) =
+        (1. - part) * start.local_element(dof) + part * goal.local_element(dof);
+  }
+
+
+  void
   Constraints::set_zero(Vector &vector) const
   {
     for (const unsigned int dof : held_owned)

@@ -1,4 +1,5 @@
 #include <supple/mesh/coarser_mesh.h>
+#include <supple/mesh/mesh_counts.h>
 
 #include <algorithm>
 #include <array>
@@ -8,34 +9,6 @@ namespace Supple
   namespace
   {
     using Shape = MeshParameters::Shape;
-
-
-    /** The counts of intervals, each of which must be even, and the entry that has them. */
-    struct Counts
-    {
-      std::string entry;
-      std::vector<unsigned int> numbers;
-      std::string right = "even"; ///< what the entry must be for that
-    };
-
-
-    std::vector<Counts>
-    counts(const MeshParameters &mesh)
-    {
-      switch (mesh.shape)
-        {
-          case Shape::box:
-            return {{"Mesh/Box cubes", {mesh.cubes.begin(), mesh.cubes.end()}},
-                    {"Mesh/Layer rows", mesh.layer_rows}};
-          case Shape::rectangle:
-            return {{"Mesh/Rectangle squares", {mesh.squares.begin(), mesh.squares.end()}},
-                    {"Mesh/Layer rows", mesh.layer_rows}};
-          default:
-            return {{"Mesh/Cylinder sectors", {mesh.sectors}},
-                    {"Mesh/Cylinder layers", {mesh.layers}},
-                    {"Mesh/Cylinder rings", {mesh.rings - 1}, "odd"}};
-        }
-    }
 
 
     /** Whether two rows that become one are of different materials. */
@@ -91,11 +64,11 @@ namespace Supple
       return "Mesh/Shape is file, and of a file there is no mesh twice as coarse";
     if (mesh.refinement.asked())
       return "a mesh that is refined where the scene says has none twice as coarse";
-    for (const Counts &count : counts(mesh))
-      if (std::any_of(count.numbers.begin(), count.numbers.end(), [](const unsigned int n) {
+    for (const MeshCounts &counts : counts_of(mesh))
+      if (std::any_of(counts.intervals.begin(), counts.intervals.end(), [](const unsigned int n) {
             return n % 2 == 1;
           }))
-        return count.entry + " must be " + count.right;
+        return counts.entry + " must be " + (counts.added % 2 == 0 ? "even" : "odd");
     if (would_mix_materials(mesh))
       return "each layer of Mesh/Layers must have an even number of rows";
     if (mesh.shape == Shape::hollow_cylinder && (mesh.sectors < 6 || coarser(mesh).walls_cross()))

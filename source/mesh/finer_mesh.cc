@@ -1,4 +1,5 @@
 #include <supple/mesh/finer_mesh.h>
+#include <supple/mesh/mesh_counts.h>
 
 namespace Supple
 {
@@ -12,18 +13,6 @@ namespace Supple
     is_power_of_two(const unsigned int n)
     {
       return n > 0 && (n & (n - 1)) == 0;
-    }
-
-
-    /** The numbers, each times a factor, set apart by commas. */
-    template <class Numbers>
-    std::string
-    multiplied(const Numbers &numbers, const unsigned int factor)
-    {
-      std::string text;
-      for (const unsigned int number : numbers)
-        text += (text.empty() ? "" : ", ") + std::to_string(factor * number);
-      return text;
     }
 
 
@@ -52,24 +41,17 @@ namespace Supple
   {
     if (n_parts == 1)
       return {};
+    if (mesh.shape == Shape::file)
+      return entries_of_halved_edges(n_parts);
     Entries entries;
-    switch (mesh.shape)
+    for (const MeshCounts &counts : counts_of(mesh))
       {
-        case Shape::box:
-          entries = {{"Mesh/Box cubes", multiplied(mesh.cubes, n_parts)}};
-          break;
-        case Shape::rectangle:
-          entries = {{"Mesh/Rectangle squares", multiplied(mesh.squares, n_parts)}};
-          break;
-        case Shape::hollow_cylinder:
-          return {{"Mesh/Cylinder sectors", std::to_string(n_parts * mesh.sectors)},
-                  {"Mesh/Cylinder layers", std::to_string(n_parts * mesh.layers)},
-                  {"Mesh/Cylinder rings", std::to_string(n_parts * (mesh.rings - 1) + 1)}};
-        default:
-          return entries_of_halved_edges(n_parts);
+        std::string numbers;
+        for (const unsigned int n : counts.intervals)
+          numbers += (numbers.empty() ? "" : ", ") + std::to_string(n_parts * n + counts.added);
+        if (!numbers.empty())
+          entries.emplace_back(counts.entry, numbers);
       }
-    if (!mesh.layer_rows.empty())
-      entries.emplace_back("Mesh/Layer rows", multiplied(mesh.layer_rows, n_parts));
     return entries;
   }
 } // namespace Supple

@@ -1,10 +1,10 @@
 #include <supple/base/error.h>
 #include <supple/solvers/linear_solver.h>
+#include <supple/solvers/patched_matrix.h>
 
 #include <Eigen/CholmodSupport>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 
 // OpenBLAS has it, other BLAS libraries have not.
@@ -36,10 +36,11 @@ namespace Supple
     public:
       CholmodSolver(const ImplicitOperator &A, const SolverParameters &parameters, Effort &effort)
         : LinearSolver(A, parameters, effort)
+        , of_blocks(A)
       {
         make_pattern();
         adjust();
-        factorization.analyzePattern(whole_matrix());
+        factorization.analyzePattern(matrix);
       }
 
       std::string
@@ -66,7 +67,7 @@ namespace Supple
       void
       for_each_entry(const Visit &visit) const
       {
-        const SymmetricBlockMatrix &blocks = A.matrix();
+        const SymmetricBlockMatrix &blocks = of_blocks.get();
         const SymmetricPattern &pattern    = blocks.pattern;
         const unsigned int n_coupled       = A.body.mesh.section.plane() ? 2 : 3;
         for (std::size_t i = 0; i < pattern.n_owned; ++i)
@@ -80,69 +81,36 @@ namespace Supple
             }
       }
 
-      const SparseMatrix &
-      whole_matrix() const
-      {
-        return A.patches() ? matrix : matrix_of_cells;
-      }
-
       void
       make_pattern()
       {
-        const std::size_t n = 3 * static_cast<std::size_t>(A.matrix().pattern.n_owned);
+        const std::size_t n = 3 * static_cast<std::size_t>(of_blocks.get().pattern.n_owned);
         std::vector<int> rows, first(n + 1);
         for_each_entry([&](const std::size_t row, const std::size_t column, const double) {
           rows.push_back(row);
           first[column + 1] = rows.size();
         });
-        matrix_of_cells.resize(n, n);
-        matrix_of_cells.resizeNonZeros(rows.size());
-        std::copy(first.begin(), first.end(), matrix_of_cells.outerIndexPtr());
-        std::copy(rows.begin(), rows.end(), matrix_of_cells.innerIndexPtr());
+        matrix.resize(n, n);
+        matrix.resizeNonZeros(rows.size());
+        std::copy(first.begin(), first.end(), matrix.outerIndexPtr());
+        std::copy(rows.begin(), rows.end(), matrix.innerIndexPtr());
         copy_values();
       }
 
       void
       copy_values()
       {
-        double *value = matrix_of_cells.valuePtr();
+        double *value = matrix.valuePtr();
         for_each_entry(
           [&](const std::size_t, const std::size_t, const double entry) { *value++ = entry; });
-        if (A.patches())
-          {
-            const SparseMatrix square_root = square_root_of_patches();
-            matrix =
-              matrix_of_cells +
-              SparseMatrix(
-                SparseMatrix(square_root * square_root.transpose()).triangularView<Eigen::Upper>());
-          }
-      }
-
-      /** A column for each patch: it couples all nodes of the patch with each other. */
-      SparseMatrix
-      square_root_of_patches() const
-      {
-        const VolumetricPatches &patches = *A.patches();
-        std::vector<Eigen::Triplet<double>> entries;
-        for (unsigned int p = 0; p < patches.partitioner->size(); ++p)
-          {
-            const double factor = std::sqrt(A.patch_factor() * patches.stiffness(p));
-            patches.for_each_node(p, [&](const unsigned int node, const std::array<double, 3> &c) {
-              for (unsigned int i = 0; i < (A.body.mesh.section.plane() ? 2 : 3); ++i)
-                if (!A.constraints.holds(3 * node + i))
-                  entries.emplace_back(3 * node + i, p, factor * c[i]);
-            });
-          }
-        SparseMatrix columns(matrix_of_cells.rows(), patches.partitioner->size());
-        columns.setFromTriplets(entries.begin(), entries.end());
-        return columns;
       }
 
       void
       do_prepare(const Vector &) override
       {
+        of_blocks.update();
         copy_values();
-        factorization.factorize(whole_matrix());
+        factorization.factorize(matrix);
         ++effort.factorizations;
         if (factorization.info() != Eigen::Success)
           throw ComputationError(
@@ -158,8 +126,8 @@ namespace Supple
         return 0;
       }
 
-      SparseMatrix matrix_of_cells;
-      SparseMatrix matrix; ///< with patches, if there are any
+      PatchedMatrix of_blocks;
+      SparseMatrix matrix; ///< its upper triangle
       Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> factorization;
     };
   } // namespace

@@ -13,30 +13,33 @@ namespace Supple
 
   namespace
   {
-    // Up to how many unknowns a factorization is quicker than multigrid, measured on the bar
-    // (doc/performance.md). What counts is for how many solutions one factor serves.
-    constexpr unsigned int limit_of_one_system   = 1000;
-    constexpr unsigned int limit_of_some_systems = 1500;
-    constexpr unsigned int limit_of_many_systems = 8000;
-    constexpr unsigned int limit_of_constant     = 25000;
-
-    // In the plane factors stay thin: of 151762 unknowns one takes 0.5 s.
-    constexpr unsigned int limit_in_plane = 300000;
-
     // Beyond, CHOLMOD would take gigabytes as a stand-in.
     constexpr unsigned int largest_stand_in_factor = 300000;
 
-    unsigned int
-    limit_of(const MatrixUse use)
+    /** Up to how many unknowns a factorization is quicker than multigrid, and why it is as many. */
+    struct Limit
     {
+      unsigned int n_unknowns;
+      const char *reason;
+    };
+
+    /** Measured on the bar (doc/performance.md). What counts is for how many solutions one factor
+     * serves; in the plane factors stay thin: of 151762 unknowns one takes 0.5 s. */
+    Limit
+    limit_of(const ImplicitOperator &A, const MatrixUse use)
+    {
+      if (A.body.mesh.section.plane())
+        return {300000, "in the plane"};
+      if (!A.forces.change_operator() && A.has_mass())
+        return {25000, "the operator never changes"};
       switch (use)
         {
           case MatrixUse::one_system:
-            return limit_of_one_system;
+            return {1000, "a matrix for each solution"};
           case MatrixUse::some_systems:
-            return limit_of_some_systems;
+            return {1500, "some solutions with each matrix"};
           default:
-            return limit_of_many_systems;
+            return {8000, "many solutions with each matrix"};
         }
     }
 
@@ -66,19 +69,12 @@ namespace Supple
                    (ml_fails ? ", some of which own no vertex" : "");
           return ml_fails ? Method::cg_jacobi : multigrid(A);
         }
-      const bool constant       = !A.forces.change_operator() && A.has_mass();
+      const Limit limit         = limit_of(A, use);
       const unsigned int n_dofs = A.body.n_dofs();
-      const unsigned int limit  = A.body.mesh.section.plane() ? limit_in_plane
-                                  : constant                  ? limit_of_constant
-                                                              : limit_of(use);
-      reason                    = std::to_string(n_dofs) + " unknowns, " +
-               (n_dofs <= limit ? "at most " : "more than ") + std::to_string(limit) +
-               (A.body.mesh.section.plane()      ? ", in the plane"
-                : constant                       ? ", the operator never changes"
-                : use == MatrixUse::one_system   ? ", a matrix for each solution"
-                : use == MatrixUse::some_systems ? ", some solutions with each matrix"
-                                                 : ", many solutions with each matrix");
-      return n_dofs <= limit ? Method::ldlt : multigrid(A);
+      const bool factorizes     = n_dofs <= limit.n_unknowns;
+      reason = std::to_string(n_dofs) + " unknowns, " + (factorizes ? "at most " : "more than ") +
+               std::to_string(limit.n_unknowns) + ", " + limit.reason;
+      return factorizes ? Method::ldlt : multigrid(A);
     }
 
     using Maker = std::unique_ptr<LinearSolver> (*)(const ImplicitOperator &,

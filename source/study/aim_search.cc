@@ -403,12 +403,8 @@ namespace Supple
     const double end = plan.base.time.end();
     if (!known)
       return std::min(plan.base.time.step, end / 20.);
-    std::size_t row = known->rows.front();
-    for (std::size_t k = 0; k < known->curve.all().size(); ++k)
-      if (&known->curve.all()[k] == known->curve.best(aim))
-        row = known->rows[k];
     // of variable steps the shortest ones count
-    return 0.7 * end / table.rows[row].steps *
+    return 0.7 * end / row_of(*known, *known->curve.best(aim)).steps *
            std::pow(aim, 1. / candidate.order - 1. / known->order);
   }
 
@@ -500,10 +496,16 @@ namespace Supple
 
 
   const StudyRow &
+  AimSearch::row_of(const Candidate &candidate, const AimCurve::Trial &trial) const
+  {
+    return table.rows[candidate.rows[&trial - candidate.curve.all().data()]];
+  }
+
+
+  const StudyRow &
   AimSearch::best_row(const Candidate &candidate) const
   {
-    const std::size_t number = best_trial(candidate) - candidate.curve.all().data();
-    return table.rows[candidate.rows[number]];
+    return row_of(candidate, *best_trial(candidate));
   }
 
 
@@ -512,10 +514,7 @@ namespace Supple
   {
     std::string entries;
     for (const Override &override : run.overrides)
-      entries += (entries.empty() ? "" : " | ") +
-                 (override.entry() == "Time/Relative tolerance" && run.tolerance > 0.
-                    ? override.entry() + "=" + digits(run.tolerance, 3)
-                    : override.text);
+      entries += (entries.empty() ? "" : " | ") + override.text;
     return "Entries for the scene: " + entries;
   }
 

@@ -113,13 +113,10 @@ namespace Supple
         model.constraints.copy_held(state.displacement, prescribed_displacement);
         model.constraints.copy_held(state.velocity, prescribed_velocity);
         if (passage.part < 1.)
-          for (const unsigned int dof : model.constraints.owned())
-            {
-              double &u = state.displacement.local_element(dof);
-              const double start =
-                model.configuration.start_of_step().displacement.local_element(dof);
-              u = start + passage.part * (u - start);
-            }
+          model.constraints.set_held_on_way(state.displacement,
+                                            model.configuration.start_of_step().displacement,
+                                            prescribed_displacement,
+                                            passage.part);
       }
   }
 
@@ -305,16 +302,11 @@ namespace Supple
     if (!at_start)
       model.configuration.update_rotations(model.effort);
     at_start = false;
-    model.forces.set_force(force, model.configuration, time, model.effort);
+    model.forces.set_other_forces(force, model.configuration, time, model.effort);
     model.implicit_operator.elastic_vmult(kept_force,
                                           model.configuration.displacement(),
                                           model.configuration.velocity());
     force += kept_force;
-    if (model.forces.have_dead_loads())
-      {
-        model.forces.set_dead_loads(kept_force, model.configuration, time);
-        force -= kept_force;
-      }
     model.constraints.set_zero(force);
     if (!all_finite(force))
       throw ComputationError("the forces are not finite numbers");

@@ -109,13 +109,12 @@ namespace Supple
     correct(const double part, const Vector &p) override
     {
       Vector &displacement = model.configuration.state.displacement;
-      const Vector &start  = model.configuration.start_of_step().displacement;
-      const double arrived = model.configuration.passage.part;
       displacement         = kept;
       displacement.add(part, p);
-      for (const unsigned int dof : model.constraints.owned())
-        displacement.local_element(dof) =
-          (1. - arrived) * start.local_element(dof) + arrived * goal.local_element(dof);
+      model.constraints.set_held_on_way(displacement,
+                                        model.configuration.start_of_step().displacement,
+                                        goal,
+                                        model.configuration.passage.part);
     }
 
     bool

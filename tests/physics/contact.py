@@ -14,19 +14,20 @@ CONTACT = runner.ROOT / "parameters" / "contact"
 HERTZ, INCLINE, BOUNCE, SKIN = [CONTACT / f"{name}.prm" for name in ("hertz", "incline", "bounce", "needle-skin")]
 folder = pathlib.Path(tempfile.mkdtemp(prefix="supple-"))
 quiet = {"Output/Frames": "none", "Output/Report": "false"}
+SOFT = """subsection Material
+  set Young modulus = 1e5
+  set Poisson ratio = 0.3
+  set Density       = 1000
+end
+"""
 CUBE = folder / "cube.prm"
-CUBE.write_text("""# a soft cube above a floor
+CUBE.write_text(f"""# a soft cube above a floor
 subsection Mesh
   set Box origin = 0, 0, 0.02
   set Box size   = 0.1, 0.1, 0.1
   set Box cubes  = 3, 3, 3
 end
-subsection Material
-  set Young modulus = 1e5
-  set Poisson ratio = 0.3
-  set Density       = 1000
-end
-subsection Loads
+{SOFT}subsection Loads
   set Gravity = 0, 0, -9.81
 end
 subsection Tool floor
@@ -38,18 +39,13 @@ subsection Time
 end
 """)
 NEEDLE = folder / "needle.prm"
-NEEDLE.write_text("""# a needle thinner than a cell is pushed into a block
+NEEDLE.write_text(f"""# a needle thinner than a cell is pushed into a block
 subsection Mesh
   set Box origin = -0.05, -0.05, -0.1
   set Box size   = 0.1, 0.1, 0.1
   set Box cubes  = 4, 4, 4
 end
-subsection Material
-  set Young modulus = 1e5
-  set Poisson ratio = 0.3
-  set Density       = 1000
-end
-subsection Constraints
+{SOFT}subsection Constraints
   set Clamped boundaries = 4
 end
 subsection Tool needle

@@ -111,6 +111,13 @@ namespace Supple
     void
     set_dead_loads(Vector &f, const Configuration &configuration, double time) const;
 
+    /** f = the sum of all forces but those [N]. */
+    void
+    set_other_forces(Vector &f,
+                     const Configuration &configuration,
+                     double time,
+                     Effort &effort) const;
+
     /** f = the sum of the forces that are counted as work [N]. */
     void
     set_working(Vector &f, const Configuration &configuration, double time) const;

@@ -67,6 +67,12 @@ namespace Supple
     void
     copy_held(Vector &to, const Vector &from) const;
 
+    /** Sets the held entries of a displacement to a part of the straight way from a start to a
+     * goal.
+     */
+    void
+    set_held_on_way(Vector &to, const Vector &start, const Vector &goal, double part) const;
+
     unsigned int n_held; ///< degrees of freedom on all processes, without those along z of a
                          ///< plane body
 

@@ -159,7 +159,11 @@ namespace Supple
     const AimCurve::Trial *
     best_trial(const Candidate &candidate) const;
 
-    /** The same in the table. */
+    /** A run of a candidate in the table. */
+    const StudyRow &
+    row_of(const Candidate &candidate, const AimCurve::Trial &trial) const;
+
+    /** The soonest run of a candidate that meets the aim, in the table. */
     const StudyRow &
     best_row(const Candidate &candidate) const;
 

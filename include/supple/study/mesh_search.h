@@ -113,12 +113,6 @@ namespace Supple
     std::optional<Found>
     search();
 
-    const StudyTable &
-    table() const
-    {
-      return found;
-    }
-
   private:
     /** The meshes of one order of cells, from coarse to fine. */
     struct Climb
