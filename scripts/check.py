@@ -16,7 +16,7 @@ MOST_LINES_OF_FUNCTION = 60
 CODE = {".cc", ".h", ".py", ".js", ".mjs", ".css", ".sh"}
 NO_TEXT = {".png", ".svg", ".msh", ".output", ".csv", ".json"}
 # The folders of include/supple and source, from the ground up: each includes from those before it.
-FLOORS = ["base", "input", "linear_algebra", "multigrid", "mesh", "mechanics", "forces", "solvers", "time", "observe", "output",
+FLOORS = ["base", "input", "linear_algebra", "multigrid", "mesh", "mechanics", "contact", "forces", "solvers", "time", "observe", "output",
           "scene", "report", "run", "study", "identification", "program"]
 BESIDE = {("study", "identification"), ("identification", "study")}
 # What is measured and written does not depend on who made the step: of `time` it knows what a step reports.

@@ -158,8 +158,30 @@ def frame(grids, axes, width):
     return camera, height
 
 
-def add_view(window, corners, grid, text, camera, colours, arguments):
-    """One body in a part of the window."""
+def tool_actor(file):
+    """The tools that belong to a frame, so that the body is seen through them."""
+    reader = vtk.vtkXMLPolyDataReader()
+    reader.SetFileName(str(file))
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputConnection(reader.GetOutputPort())
+    mapper.ScalarVisibilityOff()
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    look = actor.GetProperty()
+    look.SetColor(0.5, 0.52, 0.56)
+    look.SetOpacity(0.35)
+    look.SetInterpolationToFlat()
+    return actor
+
+
+def tools_of(frame):
+    """The file of the tools beside that of a frame; none without tools."""
+    file = frame.with_name(frame.name.replace("frame_", "tools_")).with_suffix(".vtp")
+    return file if file.exists() else None
+
+
+def add_view(window, corners, grid, tools, text, camera, colours, arguments):
+    """One body in a part of the window, with the file of its tools or None."""
     view = vtk.vtkRenderer()
     view.SetBackground(1, 1, 1)
     view.SetViewport(*corners)
@@ -168,6 +190,8 @@ def add_view(window, corners, grid, text, camera, colours, arguments):
     light.SetPosition(0.3, 0.8, 1)
     view.AddLight(light)
     view.AddActor(body_actor(grid, colours, arguments.plain))
+    if tools and arguments.enlarge == 1:
+        view.AddActor(tool_actor(tools))
     view.AddActor(ghost_actor(grid, camera if arguments.outline == "silhouette" else None))
     view.AddActor(caption(text, 12, (corners[3] - corners[1]) * window.GetSize()[1] - HEAD + 8))
     view.SetActiveCamera(camera)
@@ -220,6 +244,7 @@ class Drawing:
     def __init__(self, runs, arguments, columns):
         self.arguments = arguments
         self.grids = [[read_grid(file) for _, file in instants] for instants in runs]
+        self.tools = {id(grid): tools_of(pathlib.Path(file)) for grids, instants in zip(self.grids, runs) for grid, (_, file) in zip(grids, instants)}
         every = [grid for row in self.grids for grid in row]
         self.colours, self.title = colour(every, arguments)
         for grid in every:
@@ -235,7 +260,7 @@ class Drawing:
         whole = window.GetSize()[1]
         for row, column, grid, text in places:
             corners = (column / shape[1], 1 - (row + 1) * self.height / whole, (column + 1) / shape[1], 1 - row * self.height / whole)
-            add_view(window, corners, grid, text, self.camera, self.colours, self.arguments)
+            add_view(window, corners, grid, self.tools[id(grid)], text, self.camera, self.colours, self.arguments)
         add_colour_bar(window, self.colours, self.title)
         write(window, file, colours)
 

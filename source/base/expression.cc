@@ -210,6 +210,7 @@ namespace Supple
     : formulas(std::make_unique<Formulas>())
     , zero(true)
     , time_dependent(std::regex_search(text, std::regex("\\bt\\b")))
+    , place_dependent(std::regex_search(text, std::regex("\\b[xyz]\\b")))
   {
     if (dealii::Utilities::trim(text).empty())
       throw InputError(origin + ": the expression is empty; for nothing write 0.");

@@ -2,9 +2,8 @@
 
 #include <supple/base/error.h>
 #include <supple/base/text.h>
-#include <supple/forces/barrier.h>
-#include <supple/forces/safe_way.h>
-#include <supple/mechanics/selection.h>
+#include <supple/contact/barrier.h>
+#include <supple/contact/safe_way.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -40,24 +39,31 @@ namespace Supple
     }
 
 
+    std::vector<Tool>
+    make_tools(const Body &body,
+               const std::vector<ToolParameters> &list,
+               const double reach,
+               const ParameterFile &scene)
+    {
+      std::vector<Tool> tools;
+      for (const ToolParameters &tool : list)
+        tools.emplace_back(tool, body.mesh.section, reach, scene);
+      return tools;
+    }
+
+
     std::vector<double>
-    coefficients(const std::vector<ToolParameters> &tools)
+    coefficients(const std::vector<ToolParameters> &tools, const double between_bodies)
     {
       std::vector<double> all;
       for (const ToolParameters &tool : tools)
         all.push_back(tool.friction);
+      all.push_back(between_bodies);
       return all;
     }
 
 
-    Arrow
-    place_on_surface(const ContactPair &pair, const Corners &x)
-    {
-      Arrow place;
-      for (unsigned int v = 0; v < pair.part->n; ++v)
-        place += pair.c[v] * x[v];
-      return place;
-    }
+    constexpr double far_away = std::numeric_limits<double>::max();
 
 
     /** The tool where it is at a time. */
@@ -68,34 +74,17 @@ namespace Supple
     }
 
 
-    PartMatrix
+    PairMatrix
     stiffness_of(const Friction::Slip &slip)
     {
       const ContactPair &pair     = *slip.pair;
-      const unsigned int n        = 3 * pair.part->n;
+      const unsigned int n        = 3 * pair.n;
       const Tensor<2, 3> of_place = slip.stiffness();
-      PartMatrix matrix(n, n);
+      PairMatrix matrix(n, n);
       for (unsigned int k = 0; k < n; ++k)
         for (unsigned int l = 0; l < n; ++l)
           matrix(k, l) = pair.c[k / 3] * pair.c[l / 3] * of_place[k % 3][l % 3];
       return matrix;
-    }
-
-
-    /** y += matrix w, for the nodes of a part that this process owns. */
-    void
-    add_product(const SurfacePart &part,
-                const PartMatrix &matrix,
-                const double factor,
-                const double *const w,
-                double *const y)
-    {
-      for (unsigned int a = 0; a < part.n; ++a)
-        for (unsigned int b = 0; b < part.n; ++b)
-          for (unsigned int i = 0; i < 3; ++i)
-            for (unsigned int j = 0; j < 3; ++j)
-              y[3 * part.nodes[a] + i] +=
-                factor * matrix(3 * a + i, 3 * b + j) * w[3 * part.nodes[b] + j];
     }
   } // namespace
 
@@ -105,36 +94,56 @@ namespace Supple
                    const std::vector<ToolParameters> &list,
                    const ParameterFile &scene)
     : body(body)
-    , guard(parameters.guard)
     , stiffness(parameters.stiffness > 0. ? parameters.stiffness : usual_stiffness(body))
+    , bodies(parameters.bodies)
     , surface(body)
-    , friction(coefficients(list), parameters.slip_resolution)
+    , reach(parameters.reach > 0. ? parameters.reach : usual_reach(body, surface))
+    , tools(make_tools(body, list, reach, scene))
+    , finder(surface, parameters.guard, reach)
+    , search(surface, tools, reach, bodies)
+    , friction(coefficients(list, parameters.between_bodies() ? parameters.friction : 0.),
+               parameters.slip_resolution)
+    , largest_turns(tools.size(), 0.)
   {
+    if (reach > 0.1 * body.mesh.diameter())
+      throw InputError(scene.origin("Contact/Reach") + ": " + digits(reach, 3) +
+                       " m is more than a tenth of the body's diameter of " +
+                       digits(body.mesh.diameter(), 3) + " m, so deep would it be entered.");
     if (body.mesh.section.axisymmetric())
-      throw InputError(scene.origin("Plane/Model") +
-                       ": tools do not touch axisymmetric bodies yet (" +
-                       scene.place(list[0].section() + "/Shape") + ": subsection " +
-                       list[0].section() + "). Take a solid body, or a plane one.");
-    const double reach = parameters.reach > 0. ? parameters.reach : usual_reach(body, surface);
-    for (const ToolParameters &tool : list)
-      tools.emplace_back(tool, body.mesh.section, reach, scene);
+      throw InputError(scene.origin("Plane/Model") + ": axisymmetric bodies do not touch anything "
+                                                     "yet (" +
+                       (list.empty() ? scene.origin("Contact/Bodies")
+                                     : scene.place(list[0].section() + "/Shape") + ": subsection " +
+                                         list[0].section()) +
+                       "). Take a solid body, or a plane one.");
+    if (parameters.between_bodies() && Utilities::MPI::n_mpi_processes(body.mesh.communicator) > 1)
+      throw InputError(scene.origin("Contact/Bodies") +
+                       ": bodies touch each other on one process alone. Take one process, on "
+                       "several threads, or Bodies = tools.");
   }
 
 
-  std::vector<PlacedTool>
-  Contact::placed_tools(const Passage &passage) const
+  std::vector<Pose>
+  Contact::poses(const Passage &passage) const
   {
-    std::vector<PlacedTool> placed;
+    std::vector<Pose> poses;
     for (const Tool &tool : tools)
-      placed.push_back(tool.placed(tool.pose(passage)));
-    return placed;
+      poses.push_back(tool.pose(passage));
+    return poses;
   }
 
 
   std::vector<ContactPair>
   Contact::pairs(const double *const u, const Passage &passage) const
   {
-    return find_pairs(surface, u, placed_tools(passage), guard);
+    const std::vector<Pose> now = poses(passage);
+    const AllCandidates &near   = search.near(u, now);
+    std::vector<ContactPair> pairs;
+    for (unsigned int t = 0; t < tools.size(); ++t)
+      if (!near.of_tools[t].empty())
+        finder.add(pairs, u, tools[t].placed(now[t]), t, near.of_tools[t]);
+    finder.add_own(pairs, u, near.own);
+    return pairs;
   }
 
 
@@ -148,9 +157,16 @@ namespace Supple
   void
   Contact::spread(const ContactPair &pair, const Arrow &force, double *const f)
   {
-    for (unsigned int v = 0; v < pair.part->n; ++v)
+    for (unsigned int v = 0; v < pair.n; ++v)
       for (unsigned int i = 0; i < 3; ++i)
-        f[3 * pair.part->nodes[v] + i] += pair.c[v] * force[i];
+        f[3 * pair.nodes[v] + i] += pair.c[v] * force[i];
+  }
+
+
+  double
+  Contact::energy_of(const ContactPair &pair) const
+  {
+    return stiffness * pair.weight * Barrier{pair.reach}.value(pair.gap);
   }
 
 
@@ -160,10 +176,10 @@ namespace Supple
     spread(pair, force_of(pair), f);
     if (pair.factor == 1.)
       return;
-    const double energy = stiffness * pair.weight * Barrier{pair.reach}.value(pair.gap);
-    for (unsigned int v = 0; v < pair.part->n; ++v)
+    const double energy = energy_of(pair);
+    for (unsigned int v = 0; v < pair.n; ++v)
       for (unsigned int i = 0; i < 3; ++i)
-        f[3 * pair.part->nodes[v] + i] -= energy * pair.factor_gradient[v][i];
+        f[3 * pair.nodes[v] + i] -= energy * pair.factor_gradient[v][i];
   }
 
 
@@ -181,6 +197,7 @@ namespace Supple
   void
   Contact::begin_step(const Configuration &configuration)
   {
+    note_turns(configuration.passage);
     if (!friction.any())
       return;
     const GhostValues u(configuration.start_of_step().displacement);
@@ -189,9 +206,18 @@ namespace Supple
     for (const ContactPair &pair : pairs(u.data(), at(configuration.passage.from)))
       {
         touches.emplace_back(pair, force_of(pair).norm());
-        places.push_back(place_on_surface(pair, surface.corners(*pair.part, u.data())));
+        places.push_back(pair.place_of_nodes(body, u.data()));
       }
     friction.begin_step(touches, places);
+  }
+
+
+  void
+  Contact::note_turns(const Passage &passage)
+  {
+    for (unsigned int t = 0; t < tools.size(); ++t)
+      largest_turns[t] = std::max(
+        largest_turns[t], (tools[t].pose(passage.to).turn - tools[t].pose(passage.from).turn).norm());
   }
 
 
@@ -204,10 +230,12 @@ namespace Supple
     for (const Tool &tool : tools)
       poses.push_back({{tool.pose(passage.from), tool.pose(passage)}});
     return friction.slips(
-      [&](const ContactPair &pair) {
+      [&](const ContactPair &pair, const Arrow &touched) {
+        const Arrow place = pair.place_of_nodes(body, u);
+        if (pair.other)
+          return std::make_pair(place, touched);
         const auto &[from, now] = poses[pair.tool];
-        return std::make_pair(place_on_surface(pair, surface.corners(*pair.part, u)),
-                              from.place_with(now, pair.place));
+        return std::make_pair(place, from.place_with(now, touched));
       },
       passage.to - passage.from);
   }
@@ -220,7 +248,7 @@ namespace Supple
     double sum = 0.;
     for (const ContactPair &pair : pairs(u.data(), configuration.passage))
       if (pair.part->owned)
-        sum += factor(pair) * Barrier{pair.reach}.value(pair.gap);
+        sum += pair.factor * energy_of(pair);
     return sum;
   }
 
@@ -263,9 +291,65 @@ namespace Supple
 
 
   void
-  Contact::connect(const SymmetricPattern &pattern)
+  Contact::add_couplings(Couplings &couplings) const
   {
-    surface.connect(pattern);
+    couplings.insert(couplings.end(), coupled.begin(), coupled.end());
+  }
+
+
+  void
+  Contact::connect(const SymmetricPattern &new_pattern)
+  {
+    pattern        = &new_pattern;
+    pattern_is_old = false;
+  }
+
+
+  namespace
+  {
+    /** Adds each pair of a node of one part and one of another. */
+    void
+    couple(Couplings &couplings, const SurfacePart &one, const SurfacePart &other)
+    {
+      for (unsigned int v = 0; v < one.n; ++v)
+        for (unsigned int w = 0; w < other.n; ++w)
+          couplings.push_back({{std::max(one.nodes[v], other.nodes[w]),
+                                std::min(one.nodes[v], other.nodes[w])}});
+    }
+
+
+    void
+    sort_once(Couplings &couplings)
+    {
+      std::sort(couplings.begin(), couplings.end());
+      couplings.erase(std::unique(couplings.begin(), couplings.end()), couplings.end());
+    }
+  } // namespace
+
+
+  void
+  Contact::renew_couplings(const double *const u, const Passage &passage)
+  {
+    Couplings needed;
+    for (const ContactPair &pair : pairs(u, passage))
+      if (pair.other)
+        couple(needed, *pair.part, *pair.other);
+    for (const Friction::Slip &slip : slips(u, passage))
+      if (slip.pair->other)
+        couple(needed, *slip.pair->part, *slip.pair->other);
+    sort_once(needed);
+    if (std::includes(coupled.begin(), coupled.end(), needed.begin(), needed.end()))
+      return;
+    const Candidates &near = search.near(u, poses(passage)).own;
+    coupled                = needed; // of friction, what touched at the start
+    for (const Candidate &pair : near.vertex_face)
+      couple(coupled, surface.vertices[pair.one], surface.faces()[pair.other]);
+    for (const Candidate &pair : near.edge_edge)
+      couple(coupled, surface.edges[pair.one], surface.edges[pair.other]);
+    for (const Candidate &pair : near.face_face)
+      couple(coupled, surface.faces()[pair.one], surface.faces()[pair.other]);
+    sort_once(coupled);
+    pattern_is_old = true;
   }
 
 
@@ -273,11 +357,13 @@ namespace Supple
   Contact::update_tangent(Tangent, const Configuration &configuration, double, double)
   {
     const GhostValues u(configuration.displacement());
+    if (bodies != ContactParameters::Bodies::tools)
+      renew_couplings(u.data(), configuration.passage);
     tangent.clear();
     for (const ContactPair &pair : pairs(u.data(), configuration.passage))
-      tangent.push_back({pair.part, factor(pair) * barrier_tangent(pair)});
+      tangent.push_back({pair.n, pair.nodes, factor(pair) * barrier_tangent(pair)});
     for (const Friction::Slip &slip : slips(u.data(), configuration.passage))
-      tangent.push_back({slip.pair->part, stiffness_of(slip)});
+      tangent.push_back({slip.pair->n, slip.pair->nodes, stiffness_of(slip)});
   }
 
 
@@ -287,8 +373,13 @@ namespace Supple
                        const double *const w,
                        double *const y) const
   {
-    for (const Stiffness &stiffness : tangent)
-      Supple::add_product(*stiffness.part, stiffness.matrix, factors.displacement, w, y);
+    for (const auto &[n, nodes, matrix] : tangent)
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int b = 0; b < n; ++b)
+          for (unsigned int i = 0; i < 3; ++i)
+            for (unsigned int j = 0; j < 3; ++j)
+              y[3 * nodes[a] + i] +=
+                factors.displacement * matrix(3 * a + i, 3 * b + j) * w[3 * nodes[b] + j];
   }
 
 
@@ -298,29 +389,25 @@ namespace Supple
                        SymmetricBlockMatrix &A) const
   {
     const auto add =
-      [&factors](double *block, const PartMatrix &matrix, unsigned int a, unsigned int b) {
+      [&factors](double *block, const PairMatrix &matrix, unsigned int a, unsigned int b) {
         for (unsigned int i = 0; i < 3; ++i)
           for (unsigned int j = 0; j < 3; ++j)
             block[3 * i + j] += factors.displacement * matrix(3 * a + i, 3 * b + j);
       };
-    for (const Stiffness &stiffness : tangent)
-      {
-        const SurfacePart &part = *stiffness.part;
-        for (unsigned int w = 0, pair = 0; w < part.n; ++w)
-          {
-            if (part.nodes[w] < body.n_owned)
-              add(&A.diagonal[9 * part.nodes[w]], stiffness.matrix, w, w);
-            for (unsigned int v = 0; v < w; ++v, ++pair)
-              if (part.places[pair] < A.pattern.n_entries())
-                {
-                  const bool descends = part.nodes[v] > part.nodes[w]; // the row is the larger one
-                  add(&A.lower[9 * part.places[pair]],
-                      stiffness.matrix,
-                      descends ? v : w,
-                      descends ? w : v);
-                }
-          }
-      }
+    for (const auto &[n, nodes, matrix] : tangent)
+      for (unsigned int w = 0; w < n; ++w)
+        {
+          if (nodes[w] < body.n_owned)
+            add(&A.diagonal[9 * nodes[w]], matrix, w, w);
+          for (unsigned int v = 0; v < w; ++v)
+            {
+              const bool descends    = nodes[v] > nodes[w]; // the row is the larger one
+              const unsigned int row = descends ? v : w, column = descends ? w : v;
+              const std::size_t place = A.pattern.position(nodes[row], nodes[column]);
+              if (place < A.pattern.n_entries())
+                add(&A.lower[9 * place], matrix, row, column);
+            }
+        }
   }
 
 
@@ -337,6 +424,8 @@ namespace Supple
       }
     for (const ContactPair &pair : pairs(u.data(), passage))
       {
+        if (pair.other)
+          continue;
         const Arrow way     = now[pair.tool].place_with(next[pair.tool], pair.place) - pair.place;
         const double growth = factor(pair) * Barrier{pair.reach}.curvature(pair.gap);
         spread(pair, growth * (pair.normal * way) * pair.normal, f);
@@ -344,9 +433,11 @@ namespace Supple
     for (const Friction::Slip &slip : slips(u.data(), passage))
       {
         const ContactPair &pair = *slip.pair;
-        const Pose from         = tools[pair.tool].pose(passage.from);
-        const Arrow way         = from.place_with(next[pair.tool], pair.place) -
-                          from.place_with(now[pair.tool], pair.place);
+        if (pair.other)
+          continue;
+        const Pose from = tools[pair.tool].pose(passage.from);
+        const Arrow way = from.place_with(next[pair.tool], slip.start) -
+                          from.place_with(now[pair.tool], slip.start);
         spread(pair, slip.stiffness() * way, f);
       }
   }
@@ -383,24 +474,62 @@ namespace Supple
   {
     const Passage &passage = configuration.passage;
     const GhostValues u(configuration.displacement()), du(way);
-    double safe = 1.;
+    std::vector<ToolMotion> motions;
     for (const Tool &tool : tools)
+      motions.push_back({tool.pose(passage), tool.pose(Passage{passage.from, passage.to, part})});
+    const AllCandidates &candidates = search.on_way(u.data(), du.data(), motions);
+    const auto way_of               = [&](const SurfacePart &piece) {
+      Corners way;
+      for (unsigned int v = 0; v < piece.n; ++v)
+        for (unsigned int i = 0; i < 3; ++i)
+          way[v][i] = du.data()[3 * piece.nodes[v] + i];
+      return way;
+    };
+    double safe = 1.;
+    for (unsigned int t = 0; t < tools.size(); ++t)
       {
-        const Pose from = tool.pose(passage);
-        const Pose to   = tool.pose(Passage{passage.from, passage.to, part});
-        const bool flat = tool.parameters.shape == ToolParameters::Shape::plane;
-        for (const SurfacePart &piece : flat ? surface.vertices : surface.faces())
-          {
-            Corners step;
-            for (unsigned int v = 0; v < piece.n; ++v)
-              for (unsigned int i = 0; i < 3; ++i)
-                step[v][i] = du.data()[3 * piece.nodes[v] + i];
-            safe = std::min(
-              safe,
-              Supple::safe_part(piece, surface.corners(piece, u.data()), step, tool, from, to));
-          }
+        const auto go = [&](const SurfacePart &piece, const SurfacePart *of_core) {
+          safe = std::min(safe,
+                          Supple::safe_part(surface.simplex(piece, u.data()),
+                                            way_of(piece),
+                                            tools[t],
+                                            of_core,
+                                            motions[t]));
+        };
+        const Candidates &near         = candidates.of_tools[t];
+        const SurfaceParts *const core = tools[t].shape ? &tools[t].shape->parts : nullptr;
+        for (const auto &[one, other] : near.vertex_face)
+          go(surface.vertices[one], core ? &core->faces()[other] : nullptr);
+        for (const auto &[one, other] : near.face_vertex)
+          go(surface.faces()[one], &core->vertices[other]);
+        for (const auto &[one, other] : near.edge_edge)
+          go(surface.edges[one], &core->edges[other]);
       }
+    const auto go = [&](const SurfacePart &one, const SurfacePart &other) {
+      safe = std::min(safe,
+                      Supple::safe_part(surface.simplex(one, u.data()),
+                                        way_of(one),
+                                        surface.simplex(other, u.data()),
+                                        way_of(other)));
+    };
+    for (const auto &[one, other] : candidates.own.vertex_face)
+      go(surface.vertices[one], surface.faces()[other]);
+    for (const auto &[one, other] : candidates.own.edge_edge)
+      go(surface.edges[one], surface.edges[other]);
     return Utilities::MPI::min(safe, body.mesh.communicator);
+  }
+
+
+  double
+  Contact::turning_work(const ContactPair &pair,
+                        const Pose &now,
+                        const Pose &first,
+                        const Pose &last) const
+  {
+    if (pair.factor == 1.)
+      return 0.;
+    const Arrow edge = now.turned_back(pair.other_edge);
+    return energy_of(pair) * (pair.factor_gradient[3] * (last.turned(edge) - first.turned(edge)));
   }
 
 
@@ -422,21 +551,21 @@ namespace Supple
     const std::vector<Pose> &now = at_end ? last : first;
     const GhostValues u(displacement);
     for (const ContactPair &pair : pairs(u.data(), at(at_end ? step.to : step.from)))
-      if (pair.part->owned)
+      if (pair.part->owned && !pair.other)
         {
           const unsigned int t = pair.tool;
           const Arrow way =
             now[t].place_with(last[t], pair.place) - now[t].place_with(first[t], pair.place);
-          works[t] += weight * (force_of(pair) * way);
+          works[t] += weight * (force_of(pair) * way + turning_work(pair, now[t], first[t], last[t]));
         }
     if (!at_end)
       return;
     for (const Friction::Slip &slip : slips(u.data(), step))
-      if (slip.pair->part->owned)
+      if (slip.pair->part->owned && !slip.pair->other)
         {
           const unsigned int t = slip.pair->tool; // it touched at the start
-          const Arrow way      = first[t].place_with(last[t], slip.pair->place) - slip.pair->place;
-          works[t] += weight * (slip.force() * way);
+          const Arrow way      = first[t].place_with(last[t], slip.start) - slip.start;
+          works[t] += slip.force() * way; // it acts on the whole way
         }
   }
 
@@ -462,6 +591,7 @@ namespace Supple
     const GhostValues u(configuration.displacement());
     std::vector<ToolReport> reports(tools.size());
     std::vector<double> sums(n * tools.size(), 0.), all(sums.size());
+    std::vector<double> gaps(tools.size(), far_away);
     for (unsigned int t = 0; t < tools.size(); ++t)
       reports[t].place = tools[t].pose(passage).place;
     const auto add = [&](const unsigned int tool, const Arrow &place, const Arrow &force) {
@@ -472,30 +602,55 @@ namespace Supple
           sums[n * tool + 3 + i] += torque[i];
         }
     };
+    const auto add_couple = [&](const ContactPair &pair) {
+      const Simplex x = surface.simplex(*pair.part, u.data());
+      for (unsigned int v = 0; pair.factor < 1. && v < pair.n; ++v)
+        {
+          const Arrow couple =
+            cross_product_3d(x.x[v], -energy_of(pair) * pair.factor_gradient[v]);
+          for (unsigned int i = 0; i < 3; ++i)
+            sums[n * pair.tool + 3 + i] += couple[i];
+        }
+    };
     for (const ContactPair &pair : pairs(u.data(), passage))
-      if (pair.part->owned)
+      if (pair.part->owned && !pair.other)
         {
           add(pair.tool, pair.place, force_of(pair));
+          add_couple(pair);
+          gaps[pair.tool] = std::min(gaps[pair.tool], pair.gap);
           if (!pair.guards)
             sums[n * pair.tool + 6] += pair.weight;
         }
     for (const Friction::Slip &slip : slips(u.data(), passage))
-      if (slip.pair->part->owned)
-        add(slip.pair->tool,
-            place_on_surface(*slip.pair, surface.corners(*slip.pair->part, u.data())),
-            slip.force());
+      if (slip.pair->part->owned && !slip.pair->other)
+        add(slip.pair->tool, slip.pair->place_of_nodes(body, u.data()), slip.force());
     Utilities::MPI::sum(sums, body.mesh.communicator, all);
-    const std::vector<PlacedTool> placed = placed_tools(passage);
     for (unsigned int t = 0; t < tools.size(); ++t)
       {
         const double *const sum = &all[n * t];
         reports[t].force        = Arrow({sum[0], sum[1], sum[2]});
         reports[t].torque       = Arrow({sum[3], sum[4], sum[5]});
         reports[t].area         = sum[6];
-        reports[t].gap          = nearest(u.data(), placed[t]).gap;
-        reports[t].depth        = std::max(0., placed[t].reach - reports[t].gap);
+        reports[t].gap          = Utilities::MPI::min(gaps[t], body.mesh.communicator);
+        if (reports[t].gap == far_away)
+          reports[t].gap = nearest(u.data(), tools[t].placed(tools[t].pose(passage))).gap;
+        reports[t].depth = std::max(0., tools[t].reach - reports[t].gap);
       }
     return reports;
+  }
+
+
+  std::optional<double>
+  Contact::own_gap(const Configuration &configuration) const
+  {
+    if (bodies == ContactParameters::Bodies::tools)
+      return {};
+    const GhostValues u(configuration.displacement());
+    double least = reach;
+    for (const ContactPair &pair : pairs(u.data(), configuration.passage))
+      if (pair.other)
+        least = std::min(least, pair.gap);
+    return least;
   }
 
 
@@ -507,105 +662,11 @@ namespace Supple
     const GhostValues u(configuration.displacement());
     sum_into(pressure, [&](double *const sum) {
       for (const ContactPair &pair : pairs(u.data(), configuration.passage))
-        for (unsigned int v = 0; v < pair.part->n; ++v)
-          sum[3 * pair.part->nodes[v]] += pair.c[v] * force_of(pair).norm();
+        for (unsigned int v = 0; v < pair.n; ++v)
+          sum[3 * pair.nodes[v]] += std::abs(pair.c[v]) * force_of(pair).norm();
       for (const SurfacePart &vertex : surface.vertices)
         sum[3 * vertex.nodes[0]] /= vertex.measure;
     });
     return pressure;
-  }
-
-
-  void
-  Contact::require_room(const Passage &passage, const Constraints &constraints) const
-  {
-    constexpr unsigned int none = numbers::invalid_unsigned_int;
-    if (constraints.n_held == 0)
-      return;
-    Vector goal;
-    body.initialize(goal);
-    if (constraints.move())
-      constraints.set_displacement(goal, passage.to);
-    const std::vector<PlacedTool> placed = placed_tools(at(passage.to));
-    for (unsigned int t = 0; t < tools.size(); ++t)
-      {
-        unsigned int vertex = none;
-        for (const SurfacePart &part : surface.vertices)
-          if (constraints.holds_node(part.nodes[0]) &&
-              gap_of(part, surface.corners(part, goal.begin()), placed[t]) <= 0.)
-            vertex = std::min(vertex, body.serial_vertex[part.nodes[0]]);
-        vertex = Utilities::MPI::min(vertex, body.mesh.communicator);
-        if (vertex != none)
-          throw ComputationError("the tool " + tools[t].parameters.name + " would reach " +
-                                 Selection(body).vertex_in_words(vertex) +
-                                 ", which is held or moved as prescribed: both can't be");
-      }
-  }
-
-
-  Contact::Nearest
-  Contact::nearest(const double *const u, const PlacedTool &tool) const
-  {
-    const MPI_Comm communicator = body.mesh.communicator;
-    Nearest here{std::numeric_limits<double>::max(), 0., numbers::invalid_unsigned_int};
-    for (const SurfacePart &part : tool.is_plane ? surface.vertices : surface.faces())
-      {
-        const Corners x  = surface.corners(part, u);
-        const double gap = gap_of(part, x, tool);
-        if (gap >= here.gap)
-          continue;
-        here = {gap, 0., body.serial_vertex[part.nodes[0]]};
-        for (unsigned int v = 0; v < part.n; ++v)
-          here.edge = std::max(here.edge, (x[(v + 1) % part.n] - x[v]).norm());
-      }
-    Nearest all{Utilities::MPI::min(here.gap, communicator), 0., 0};
-    const bool is_here = here.gap == all.gap;
-    all.edge           = Utilities::MPI::max(is_here ? here.edge : 0., communicator);
-    all.vertex =
-      Utilities::MPI::min(is_here ? here.vertex : numbers::invalid_unsigned_int, communicator);
-    return all;
-  }
-
-
-  void
-  Contact::require_clear(const Configuration &configuration, const ParameterFile &scene) const
-  {
-    const GhostValues u(configuration.displacement());
-    for (const Tool &tool : tools)
-      {
-        const PlacedTool placed = tool.placed(tool.pose(configuration.passage));
-        const Nearest place     = nearest(u.data(), placed);
-        if (place.gap <= 0.)
-          throw InputError(scene.origin(tool.parameters.section() + "/Position") +
-                           ": at the start the tool " + tool.parameters.name + " is " +
-                           digits(placed.reach - place.gap, 3) + " m deep in the body, at " +
-                           Selection(body).vertex_in_words(place.vertex) +
-                           ". It must be outside; it may touch the surface.");
-      }
-  }
-
-
-  std::vector<std::string>
-  Contact::warnings_of_start(const Configuration &configuration) const
-  {
-    const GhostValues u(configuration.displacement());
-    std::vector<std::string> warnings;
-    for (const Tool &tool : tools)
-      {
-        const PlacedTool placed = tool.placed(tool.pose(configuration.passage));
-        const Nearest place     = nearest(u.data(), placed);
-        const double radius     = tool.parameters.radius;
-        if (!placed.is_plane && radius < place.edge)
-          warnings.push_back(
-            "The tool " + tool.parameters.name + ", with a radius of " + digits(radius, 3) +
-            " m, is thinner than the cells that it is next to, with edges of " +
-            digits(place.edge, 3) + " m: its force depends on the mesh. Edges of less than " +
-            digits(radius, 3) + " m would do.");
-        if (place.gap < placed.reach * (1. - 1e-6))
-          warnings.push_back("At the start the tool " + tool.parameters.name + " is " +
-                             digits(placed.reach - place.gap, 3) +
-                             " m deep in the body, and pushes it away.");
-      }
-    return warnings;
   }
 } // namespace Supple

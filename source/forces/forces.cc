@@ -51,10 +51,10 @@ namespace Supple
     for (const Maker &make : load_makers)
       if (std::unique_ptr<Force> load = make(body, loads, scene))
         add(std::move(load));
-    if (!tools.empty())
+    if (!tools.empty() || contact.between_bodies())
       {
         auto of_all = std::make_unique<Contact>(body, contact, tools, scene);
-        of_tools    = of_all.get();
+        of_contact    = of_all.get();
         add(std::move(of_all));
       }
   }
@@ -91,7 +91,7 @@ namespace Supple
   bool
   Forces::others_than_contact_are_linear() const
   {
-    return !any([this](const Force &force) { return &force != of_tools && !force.is_linear(); });
+    return !any([this](const Force &force) { return &force != of_contact && !force.is_linear(); });
   }
 
 
@@ -301,6 +301,20 @@ namespace Supple
     for (const auto &force : list)
       force->add_couplings(pairs);
     return pairs;
+  }
+
+
+  bool
+  Forces::couplings_come_and_go() const
+  {
+    return any([](const Force &force) { return force.couplings_come_and_go(); });
+  }
+
+
+  bool
+  Forces::couplings_have_changed() const
+  {
+    return any([](const Force &force) { return force.couplings_have_changed(); });
   }
 
 

@@ -55,8 +55,16 @@ namespace Supple
 
   SymmetricBlockMatrix::SymmetricBlockMatrix(const SymmetricPattern &pattern)
     : pattern(pattern)
-    , diagonal(9 * (pattern.n_owned + pattern.n_pieces()))
   {
+    fit_pattern();
+  }
+
+
+  void
+  SymmetricBlockMatrix::fit_pattern()
+  {
+    diagonal.assign(9 * (pattern.n_owned + pattern.n_pieces()), 0.);
+    lower.clear();
     resize_in_huge_pages(lower, 9 * (pattern.n_entries() + pattern.n_pieces()));
   }
 

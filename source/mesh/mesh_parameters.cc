@@ -91,7 +91,8 @@ namespace Supple
       "Physical volumes become material ids and physical surfaces boundary ids, as do groups, "
       "references and properties of other formats; names of groups may stand for their ids in "
       "other entries. A file without tetrahedra, but with triangles in the plane z = 0, is a "
-      "plane body: physical surfaces become material ids and physical curves boundary ids.");
+      "plane body: physical surfaces become material ids and physical curves boundary ids. "
+      "Several files, set apart by commas, are pieces of one body.");
     add(prm,
         "Scale",
         scale,
@@ -106,6 +107,14 @@ namespace Supple
       "out of a box. Cells, boundary ids and materials stay what they are; Boundary regions and "
       "all other places mean the body after it. Empty: vertices stay. Unit: m. Range: three "
       "expressions of x, y, z set apart by semicolons; the third is 0 for a plane body.",
+      dealii::Patterns::Anything());
+    prm.add_parameter(
+      "Piece maps",
+      piece_maps,
+      "Where vertices of each piece are put, before Refine and Map: one map for each of several "
+      "files, or one for each copy of the one mesh there is, such as x; y; z | x; y; z + 0.11 for "
+      "two boxes. Pieces share no vertex; they touch each other by Contact/Bodies. Empty: pieces "
+      "stay where their files put them. Unit: m. Range: maps as of Map, set apart by |.",
       dealii::Patterns::Anything());
     prm.add_parameter(
       "Boundary regions",

@@ -4,6 +4,7 @@
 #include <supple/base/expression.h>
 #include <supple/mesh/edge_middles.h>
 #include <supple/mesh/mesh_generators.h>
+#include <supple/mesh/mesh_pieces.h>
 #include <supple/mesh/mesh_reader.h>
 #include <supple/mesh/refinement.h>
 
@@ -60,31 +61,6 @@ namespace Supple
     }
 
 
-    SerialMesh
-    generate_or_read(const MeshParameters &parameters, const ParameterFile &scene)
-    {
-      switch (parameters.shape)
-        {
-          case MeshParameters::Shape::box:
-            return box_mesh(parameters);
-          case MeshParameters::Shape::hollow_cylinder:
-            return hollow_cylinder_mesh(parameters);
-          case MeshParameters::Shape::rectangle:
-            return rectangle_mesh(parameters);
-          default:
-            {
-              const auto file = std::filesystem::path(scene.folder()) / parameters.file;
-              SerialMesh mesh = read_mesh(file.string(), scene.origin("Mesh/File"));
-              for (auto &vertex : mesh.vertices)
-                vertex *= parameters.scale;
-              for (auto &middle : mesh.middles)
-                middle.place *= parameters.scale;
-              return mesh;
-            }
-        }
-    }
-
-
     /** @throws InputError where the map gives no place, or leaves the plane of a plane body */
     Point<3>
     mapped(const Expression &map,
@@ -131,6 +107,76 @@ namespace Supple
         throw InputError(origin + ": it turns " + std::to_string(n_turned) + " of " +
                          std::to_string(mesh.cells.size()) +
                          " cells inside out; it must not fold the body.");
+    }
+
+
+    SerialMesh
+    read_file(const std::string &file, const double scale, const ParameterFile &scene)
+    {
+      const auto path = std::filesystem::path(scene.folder()) / file;
+      SerialMesh mesh = read_mesh(path.string(), scene.origin("Mesh/File"));
+      for (auto &vertex : mesh.vertices)
+        vertex *= scale;
+      for (auto &middle : mesh.middles)
+        middle.place *= scale;
+      return mesh;
+    }
+
+
+    SerialMesh
+    generate(const MeshParameters &parameters)
+    {
+      switch (parameters.shape)
+        {
+          case MeshParameters::Shape::hollow_cylinder:
+            return hollow_cylinder_mesh(parameters);
+          case MeshParameters::Shape::rectangle:
+            return rectangle_mesh(parameters);
+          default:
+            return box_mesh(parameters);
+        }
+    }
+
+
+    /** Of each file, or the one that is generated. */
+    std::vector<SerialMesh>
+    generate_or_read(const MeshParameters &parameters, const ParameterFile &scene)
+    {
+      if (parameters.shape != MeshParameters::Shape::file)
+        return {generate(parameters)};
+      std::vector<SerialMesh> meshes;
+      for (const std::string &file : Utilities::split_string_list(parameters.file, ','))
+        meshes.push_back(read_file(file, parameters.scale, scene));
+      return meshes;
+    }
+
+
+    /** All pieces, each where its map puts it. */
+    SerialMesh
+    join_pieces(const MeshParameters &parameters, const ParameterFile &scene)
+    {
+      const std::string origin              = scene.origin("Mesh/Piece maps");
+      const std::vector<std::string> maps   = Utilities::split_string_list(parameters.piece_maps, '|');
+      const std::vector<SerialMesh> meshes  = generate_or_read(parameters, scene);
+      const std::size_t n                   = std::max(maps.size(), meshes.size());
+      if (meshes.size() > 1 && !maps.empty() && maps.size() != meshes.size())
+        throw InputError(origin + ": there are " + std::to_string(maps.size()) + " maps for " +
+                         std::to_string(meshes.size()) +
+                         " files; each file needs its own, set apart by |.");
+      if (!maps.empty() && parameters.shape == MeshParameters::Shape::hollow_cylinder &&
+          (parameters.order == 2 || parameters.refinement.wanted()))
+        throw InputError(origin + ": the walls of a hollow cylinder are round about the z axis, "
+                                  "where finer and quadratic cells put new nodes. Take Mesh/Order = "
+                                  "1 without Mesh/Refine.");
+      SerialMesh whole;
+      for (std::size_t k = 0; k < n; ++k)
+        {
+          SerialMesh piece = meshes[meshes.size() > 1 ? k : 0];
+          if (!maps.empty())
+            apply_map(piece, maps[k], origin);
+          add_piece(whole, piece, scene.origin("Mesh/File"));
+        }
+      return whole;
     }
 
 
@@ -231,7 +277,7 @@ namespace Supple
   {
     const bool from_file     = parameters.shape == MeshParameters::Shape::file;
     const std::string source = scene.origin(from_file ? "Mesh/File" : "Mesh/Shape");
-    SerialMesh mesh          = generate_or_read(parameters, scene);
+    SerialMesh mesh          = join_pieces(parameters, scene);
     MeshReport before;
     set_order(mesh, parameters, scene);
     if (parameters.refinement.wanted())

@@ -213,7 +213,8 @@ namespace Supple
   {
     now.tools   = forces.contact()->reports(configuration);
     now.rubbed  = contact.rubbed + report.rubbed;
-    now.min_gap = now.tools[0].gap;
+    now.min_gap =
+      forces.contact()->own_gap(configuration).value_or(std::numeric_limits<double>::max());
     now.creep   = forces.contact()->creep(configuration);
     for (std::size_t t = 0; t < now.tools.size(); ++t)
       {

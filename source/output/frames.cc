@@ -2,6 +2,7 @@
 
 #include <supple/base/files.h>
 #include <supple/base/text.h>
+#include <supple/contact/tool_surface.h>
 #include <supple/forces/contact.h>
 
 #include <deal.II/base/mpi.h>
@@ -39,7 +40,8 @@ namespace Supple
   std::vector<std::string>
   Frames::files()
   {
-    return {"solution.pvd", "solution/frame_*", Film::file_name()};
+    return {
+      "solution.pvd", "solution/frame_*", "tools.pvd", "solution/tools_*", Film::file_name()};
   }
 
 
@@ -160,7 +162,11 @@ namespace Supple
     records.emplace_back(now.time, "solution/" + name + (parallel ? ".pvtu" : ".vtu"));
     if (Utilities::MPI::this_mpi_process(body.mesh.communicator) == 0)
       {
-        write_whole_file(folder + "/solution.pvd", collection());
+        std::vector<std::string> files;
+        for (const auto &[time, file] : records)
+          files.push_back(file);
+        write_whole_file(folder + "/solution.pvd", collection(files));
+        write_tools();
       }
 
     min_volume_ratio =
@@ -173,14 +179,43 @@ namespace Supple
   }
 
 
+  namespace
+  {
+    std::string
+    file_of_tools(const unsigned int number)
+    {
+      return "solution/tools_" + Utilities::int_to_string(number, 4) + ".vtp";
+    }
+  } // namespace
+
+
+  void
+  Frames::write_tools() const
+  {
+    if (!forces.contact() || forces.contact()->all_tools().empty())
+      return;
+    const std::vector<Tool> &tools = forces.contact()->all_tools();
+    std::vector<Pose> poses;
+    for (const Tool &tool : tools)
+      poses.push_back(tool.pose(records.back().first));
+    write_whole_file(folder + "/" + file_of_tools(records.size() - 1),
+                     draw_tools(tools, poses, extent_of_planes(body)));
+    std::vector<std::string> files;
+    for (unsigned int number = 0; number < records.size(); ++number)
+      files.push_back(file_of_tools(number));
+    write_whole_file(folder + "/tools.pvd", collection(files));
+  }
+
+
   std::string
-  Frames::collection() const
+  Frames::collection(const std::vector<std::string> &files) const
   {
     std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n"
       "<Collection>\n";
-    for (const auto &[time, file] : records)
-      text += "<DataSet timestep=\"" + digits(time, 15) + "\" file=\"" + file + "\"/>\n";
+    for (std::size_t k = 0; k < files.size(); ++k)
+      text += "<DataSet timestep=\"" + digits(records[k].first, 15) + "\" file=\"" + files[k] +
+              "\"/>\n";
     return text + "</Collection>\n</VTKFile>\n";
   }
 

@@ -44,6 +44,7 @@ export class BodyView {
     this.controls.addEventListener('change', () => this.invalidate());
     this.makeBody();
     this.makeGhost();
+    this.makeTools();
     this.addLights();
     this.takeTheme();
     canvas.addEventListener('keydown', (event) => this.key(event));
@@ -89,6 +90,30 @@ export class BodyView {
     this.scene.add(this.ghostFaces, this.ghostEdges);
   }
 
+  makeTools() {
+    this.toolMaterial = new MeshLambertMaterial({transparent: true, opacity: 0.45, depthWrite: false, side: DoubleSide, flatShading: true});
+    this.toolBodies = this.surface.tools.map(({points, triangles}) => {
+      const shape = new BufferGeometry();
+      shape.setAttribute('position', new BufferAttribute(Float32Array.from(points), 3));
+      shape.setIndex(triangles);
+      const tool = new Mesh(shape, this.toolMaterial);
+      tool.frustumCulled = false;
+      this.scene.add(tool);
+      return tool;
+    });
+  }
+
+  /** Tools are where they are: beside an enlarged displacement they would mean nothing. */
+  placeTools() {
+    this.toolBodies.forEach((tool, number) => {
+      const pose = this.surface.pose(number, this.where);
+      const turn = new Vector3(...pose.slice(3));
+      tool.visible = this.enlarged === 1;
+      tool.position.set(...pose.slice(0, 3));
+      tool.quaternion.setFromAxisAngle(turn.clone().normalize(), turn.length());
+    });
+  }
+
   /** From beside the camera, so that what one looks at is lit. */
   addLights() {
     const light = new DirectionalLight(0xffffff, 0.45 * Math.PI);
@@ -103,6 +128,7 @@ export class BodyView {
     this.ghostFaces.material.color = line;
     this.ghostEdges.material.color = line;
     this.wires.material.color = new Color(styleColour('--wire'));
+    this.toolMaterial.color = line;
     this.invalidate();
   }
 
@@ -172,6 +198,7 @@ export class BodyView {
     if (wires !== undefined) this.wires.visible = wires;
     if (ghost !== undefined) this.ghostFaces.visible = this.ghostEdges.visible = ghost;
     this.place();
+    this.placeTools();
     this.paint();
     this.invalidate();
   }

@@ -1,6 +1,7 @@
 #include <supple/report/report.h>
 
 #include <supple/base/expression.h>
+#include <supple/contact/tool_surface.h>
 #include <supple/report/report_page.h>
 
 #include <nlohmann/json.hpp>
@@ -130,15 +131,18 @@ namespace Supple
             const Table table = read_table(file);
             tables[name]      = to_json(table, telling_rows(table));
           }
-      std::set<fs::path> profiles;
+      std::set<fs::path> files;
       for (const auto &entry : fs::directory_iterator(folder))
-        if (entry.path().filename().string().rfind("profile_", 0) == 0 &&
-            entry.path().extension() == ".csv")
-          profiles.insert(entry.path());
-      for (const fs::path &file : profiles)
+        if (entry.path().extension() == ".csv")
+          files.insert(entry.path());
+      for (const fs::path &file : files)
         {
-          const Table table            = read_table(file);
-          tables[file.stem().string()] = to_json(table, rows_of_telling_steps(table));
+          const std::string name = file.stem().string();
+          const bool profile     = name.rfind("profile_", 0) == 0;
+          if (!profile && name.rfind("tool_", 0) != 0)
+            continue;
+          const Table table = read_table(file);
+          tables[name]      = to_json(table, profile ? rows_of_telling_steps(table) : telling_rows(table));
         }
       return tables;
     }
@@ -167,6 +171,38 @@ namespace Supple
         g[i] = gravity.value({0., 0., 0.}, end, i);
       return g.norm() > 0. ? Json{-g[0], -g[1], -g[2]} : Json();
     }
+
+
+    /** Surfaces of the tools in their frames, and their poses at some times. */
+    Json
+    drawn(const std::vector<Tool> &tools, const double extent, const Json &times)
+    {
+      Json list = Json::array();
+      for (const Tool &tool : tools)
+        {
+          const TriangleMesh surface = drawn_surface(tool, extent);
+          Json poses                 = Json::array();
+          for (const Json &time : times)
+            {
+              const Pose pose = tool.pose(time.get<double>());
+              for (const Arrow &vector : {pose.place, pose.turn})
+                for (unsigned int i = 0; i < 3; ++i)
+                  poses.push_back(brief_number(vector[i]));
+            }
+          Json points = Json::array(), corners = Json::array();
+          for (const auto &place : surface.points)
+            for (const double x : place)
+              points.push_back(brief_number(x));
+          for (const auto &triangle : surface.triangles)
+            for (const unsigned int corner : triangle)
+              corners.push_back(corner);
+          list.push_back({{"name", tool.parameters.name},
+                          {"points", points},
+                          {"triangles", corners},
+                          {"poses", poses}});
+        }
+      return list;
+    }
   } // namespace
 
 
@@ -174,7 +210,9 @@ namespace Supple
   write_report(const std::string &folder,
                const Parameters &parameters,
                const Json &summary,
-               const Film *film)
+               const Film *film,
+               const std::vector<Tool> &tools,
+               const double extent)
   {
     Json data = {
       {"kind", "run"},
@@ -190,6 +228,7 @@ namespace Supple
       {
         const PackedFilm packed = film->pack(most_surface_bytes);
         data["surface"]         = packed.description();
+        data["tools"]           = drawn(tools, extent, data["surface"]["times"]);
         surface                 = packed.bytes;
       }
     write_page(folder, data, surface);

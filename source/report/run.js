@@ -8,7 +8,7 @@ import {parameterList, summaryList} from './lists.js';
 import {Stage} from './stage.js';
 import {Surface} from './surface.js';
 
-const ENERGIES = ['kinetic', 'elastic', 'potential', 'dissipated', 'work', 'total'];
+const ENERGIES = ['kinetic', 'elastic', 'potential', 'contact', 'dissipated', 'rubbed', 'work', 'total'];
 
 /** What went wrong and what to know, before all else. */
 function notices({status, warnings: told, extremes}) {
@@ -60,6 +60,7 @@ class Charts {
     this.all = [];
     this.root = element('div', {class: 'charts'});
     this.addHistory();
+    this.addTools();
     this.addProbes();
     this.addProfiles();
     this.addError();
@@ -99,6 +100,16 @@ class Charts {
     this.add('Angular momentum', 'kg m²/s', some(['lx', 'ly', 'lz']), table, this.more);
     this.more.addEventListener('toggle', () => this.draw());
     if (this.more.children.length > 1) this.tail = this.more;
+  }
+
+  /** The force of each tool on the body, and its torque where it turns the body. */
+  addTools() {
+    for (const [name, table] of Object.entries(this.data.tables)) {
+      if (!name.startsWith('tool_')) continue;
+      const tool = name.slice(5);
+      this.add(`Force of ${tool}`, 'N', components(table.columns, 'f'), table);
+      this.add(`Depth of the body in ${tool}`, 'm', tells(table.columns.depth) ? [['depth', table.columns.depth]] : [], table);
+    }
   }
 
   addProbes() {
@@ -169,7 +180,7 @@ class Charts {
 async function readSurface(data, text) {
   if (!data.surface?.times.length) return [null, null];
   try {
-    return [await Surface.read(data.surface, text), null];
+    return [await Surface.read({...data.surface, tools: data.tools ?? []}, text), null];
   } catch (error) {
     return [null, element('p', {class: 'notice warn'}, `This browser can't unpack the motion of the body (${error.message}). The curves are whole.`)];
   }

@@ -130,6 +130,12 @@ export class Surface {
     for (let i = 0; i < into.length; ++i) into[i] = scale * (a[i] + part * (b[i] - a[i]));
   }
 
+  /** Place and turn of a tool at a time. */
+  pose(tool, {number, next, part}) {
+    const {poses} = this.tools[tool];
+    return [0, 1, 2, 3, 4, 5].map((i) => poses[6 * number + i] + part * (poses[6 * next + i] - poses[6 * number + i]));
+  }
+
   /** A field of the triangles at a time, into an array. */
   values(field, {number, next, part}, into) {
     const a = this.frames[number][field], b = this.frames[next][field];

@@ -272,7 +272,7 @@ namespace Supple
     const Contact *const contact = problem.forces.contact();
     const Extremes &worst        = diagnostics.extremes();
     std::vector<std::string> list;
-    if (!contact || worst.gaps.empty())
+    if (!contact)
       return list;
     for (std::size_t t = 0; t < worst.gaps.size() && integrator.finished(); ++t)
       {
@@ -282,13 +282,21 @@ namespace Supple
                          " never touched the body: it came no nearer than " +
                          digits(worst.gaps[t] - tool.reach, 3) + " m.");
       }
+    constexpr double degrees = 180. / M_PI, many = 5.;
+    for (std::size_t t = 0; t < contact->all_tools().size(); ++t)
+      if (const double turn = degrees * contact->turns_within_steps()[t]; turn > many)
+        list.push_back("The tool " + contact->all_tools()[t].parameters.name + " turned by " +
+                       digits(turn, 3) +
+                       " degrees within a step: friction and work see the straight way between "
+                       "both ends alone. Take steps with less than " +
+                       digits(many, 1) + " degrees.");
     const TimeMethod method = problem.parameters.time.method;
     const bool is_free =
       problem.constraints.n_held == 0 || !problem.constraints.free_pieces.empty();
     if (worst.releases > 0 && is_free && !problem.stationary &&
         (method == TimeMethod::backward_euler || method == TimeMethod::implicit_backward_euler))
       list.push_back(
-        "The body left a tool that it had touched: how fast it rebounds depends on "
+        "The body left what it had touched: how fast it rebounds depends on "
         "the step, for backward Euler damps what is faster. Halve Time/Step, or take "
         "Time/Method = trbdf2.");
     return list;

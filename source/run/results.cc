@@ -2,6 +2,8 @@
 
 #include <supple/base/files.h>
 #include <supple/base/first_process.h>
+#include <supple/contact/tool_surface.h>
+#include <supple/forces/contact.h>
 #include <supple/mesh/msh_writer.h>
 #include <supple/mesh/whole_mesh.h>
 #include <supple/report/report.h>
@@ -72,14 +74,23 @@ namespace Supple
 
 
   void
-  Results::write_end(const Summary &summary, const Film *const film) const
+  Results::write_end(const Summary &summary, const Film *const film, const Problem &problem) const
   {
     if (!writes || dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
       return;
     const Json json = summary.to_json();
     sync_folder(folder, "solution"); // the summary tells of files that are there
     if (writes_report)
-      write_report(folder, parameters, json, film);
+      {
+        const Contact *const contact = problem.forces.contact();
+        const std::vector<Tool> none;
+        write_report(folder,
+                     parameters,
+                     json,
+                     film,
+                     contact ? contact->all_tools() : none,
+                     extent_of_planes(problem.body));
+      }
     write_durable_file(folder + "/" + summary_file, json.dump(2) + "\n");
     if (writes_report && film && !parameters.checkpoint.wanted())
       film->remove(); // no run will go on from here

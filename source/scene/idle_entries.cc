@@ -153,13 +153,15 @@ namespace Supple
     {
       using Shape             = ToolParameters::Shape;
       std::vector<Rule> rules = {
-        {scene.tools.empty(),
-         "there is no subsection Tool.",
+        {!scene.has_contact(),
+         "there is no subsection Tool, and Contact/Bodies is tools.",
          {"Contact/Stiffness", "Contact/Reach", "Contact/Guard", "Contact/Slip resolution"}},
+        {!scene.contact.between_bodies(), "Contact/Bodies is tools.", {"Contact/Friction"}},
         {std::all_of(scene.tools.begin(),
                      scene.tools.end(),
-                     [](const ToolParameters &tool) { return tool.friction == 0.; }),
-         "no tool has friction.",
+                     [](const ToolParameters &tool) { return tool.friction == 0.; }) &&
+           !(scene.contact.between_bodies() && scene.contact.friction > 0.),
+         "nothing has friction.",
          {"Contact/Slip resolution"}}};
       for (const ToolParameters &tool : scene.tools)
         {
@@ -168,8 +170,14 @@ namespace Supple
             {tool.shape != Shape::plane, name + "/Shape is not plane.", {name + "/Normal"}});
           rules.push_back(
             {tool.shape != Shape::capsule, name + "/Shape is not capsule.", {name + "/Axis"}});
+          rules.push_back({tool.shape != Shape::sphere && tool.shape != Shape::capsule,
+                           name + "/Shape is neither sphere nor capsule.",
+                           {name + "/Radius"}});
           rules.push_back(
-            {tool.shape == Shape::plane, name + "/Shape is plane.", {name + "/Radius"}});
+            {tool.shape != Shape::box, name + "/Shape is not box.", {name + "/Size"}});
+          rules.push_back({tool.shape != Shape::file,
+                           name + "/Shape is not file.",
+                           {name + "/File", name + "/Scale"}});
         }
       return rules;
     }

@@ -117,32 +117,48 @@ namespace Supple
     }
 
 
-    /** Only a method whose steps end with a stage keeps tools out of the body: what others make of
-     * their stages may be within one. */
+    /** Where the first friction is set; nothing without. */
+    std::string
+    place_of_friction(const Parameters &parameters)
+    {
+      for (const ToolParameters &tool : parameters.tools)
+        if (tool.friction > 0.)
+          return parameters.origin(tool.section() + "/Friction");
+      const ContactParameters &contact = parameters.contact;
+      return contact.between_bodies() && contact.friction > 0. ?
+               parameters.origin("Contact/Friction") :
+               "";
+    }
+
+
+    /** Only a method whose steps end with a stage keeps bodies apart: what others make of their
+     * stages may be within a tool. */
     void
     check_contact(const Parameters &parameters)
     {
       const TimeParameters &time = parameters.time;
-      if (parameters.tools.empty() || time.problem == TimeParameters::Problem::stationary)
+      if (!parameters.has_contact() || time.problem == TimeParameters::Problem::stationary)
         return;
-      for (const ToolParameters &tool : parameters.tools)
-        if (tool.friction > 0. && time.ends_with_stage() && time.order() > 1)
-          throw InputError(parameters.origin(tool.section() + "/Friction") +
-                           ": friction is that of the touches at the start of a step, an error "
-                           "of first order; " +
-                           parameters.origin("Time/Method") +
-                           " would gain nothing. Take backward euler or implicit backward euler.");
+      const std::string friction = place_of_friction(parameters);
+      if (!friction.empty() && time.ends_with_stage() && time.order() > 1)
+        throw InputError(friction +
+                         ": friction is that of the touches at the start of a step, an error "
+                         "of first order; " +
+                         parameters.origin("Time/Method") +
+                         " would gain nothing. Take backward euler or implicit backward euler.");
       if (time.method == TimeMethod::esdirk5)
         throw InputError(parameters.origin("Time/Method") +
                          ": its first stages go far beyond what comes, so that the energy grows "
                          "without bounds where tools are met. Take trbdf2, esdirk3 or esdirk4.");
       if (time.ends_with_stage())
         return;
-      throw InputError(parameters.origin("Time/Method") + ": with tools (subsection " +
-                       parameters.tools[0].section() +
-                       ") a step must end with an implicit stage, or the body may end within one. "
-                       "Take backward euler, implicit backward euler, trbdf2, esdirk3 or "
-                       "esdirk4.");
+      const std::string what = parameters.tools.empty() ?
+                                 "bodies that meet each other (Contact/Bodies)" :
+                                 "tools (subsection " + parameters.tools[0].section() + ")";
+      throw InputError(parameters.origin("Time/Method") + ": with " + what +
+                       " a step must end with an implicit stage, or the body may end within "
+                       "something. Take backward euler, implicit backward euler, trbdf2, esdirk3 "
+                       "or esdirk4.");
     }
 
 

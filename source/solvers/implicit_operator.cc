@@ -32,10 +32,28 @@ namespace Supple
     forces.connect(pattern);
     find_masked_entries();
     if (dynamic)
-      {
-        M = std::make_unique<SymmetricScalarMatrix>(pattern);
-        body.cells->add_mass(forces.elastic().cell_slots(), *M);
-      }
+      make_mass();
+  }
+
+
+  void
+  ImplicitOperator::make_mass()
+  {
+    M = std::make_unique<SymmetricScalarMatrix>(pattern);
+    body.cells->add_mass(forces.elastic().cell_slots(), *M);
+  }
+
+
+  void
+  ImplicitOperator::renew_pattern()
+  {
+    pattern = make_pattern();
+    forces.connect(pattern);
+    A.fit_pattern();
+    find_masked_entries();
+    if (M)
+      make_mass();
+    ++patterns;
   }
 
 
@@ -84,6 +102,8 @@ namespace Supple
   void
   ImplicitOperator::find_masked_entries()
   {
+    masked_lower.clear();
+    masked_diagonal.clear();
     for (const unsigned int dof : constraints.owned())
       {
         const std::size_t node = dof / 3, i = dof % 3;
@@ -104,7 +124,17 @@ namespace Supple
 
 
   void
-  ImplicitOperator::assemble(SymmetricBlockMatrix &matrix, const double added_bulk) const
+  ImplicitOperator::make()
+  {
+    if (forces.couplings_have_changed())
+      renew_pattern();
+    set_matrix(A, 0.);
+    made = true;
+  }
+
+
+  void
+  ImplicitOperator::set_matrix(SymmetricBlockMatrix &matrix, const double added_bulk) const
   {
     const PhaseTimer timer(effort, Phase::assembly);
     matrix.set_zero();
@@ -159,8 +189,7 @@ namespace Supple
       return false;
     factors  = wanted;
     diagonal = wanted_diagonal;
-    assemble(A, 0.);
-    made = true;
+    make();
     ++effort.assemblies;
     effort.cells_warped += body.cell_nodes.size();
     return true;
@@ -214,10 +243,7 @@ namespace Supple
   {
     const bool anew = !made;
     if (anew)
-      {
-        assemble(A, 0.);
-        made = true;
-      }
+      make();
     const std::size_t here = forces.elastic().n_turned(configuration, warp_tolerance);
     const std::size_t all  = dealii::Utilities::MPI::sum(here, body.mesh.communicator);
     if (all == 0)
@@ -243,8 +269,7 @@ namespace Supple
       configuration.rotations.kept = configuration.rotations.current;
     else
       configuration.rotations.kept.clear();
-    assemble(A, 0.);
-    made = true;
+    make();
     ++effort.assemblies;
     effort.cells_warped += body.cell_nodes.size();
   }
@@ -255,7 +280,7 @@ namespace Supple
   {
     factors  = {0., 0., 1.};
     diagonal = 0.;
-    assemble(A, 0.);
+    make();
     ++effort.assemblies;
   }
 
@@ -263,7 +288,7 @@ namespace Supple
   void
   ImplicitOperator::assemble_bounded(SymmetricBlockMatrix &matrix) const
   {
-    assemble(matrix, bounded_bulk());
+    set_matrix(matrix, bounded_bulk());
   }
 
 

@@ -77,34 +77,11 @@ namespace Supple
       return factorizes ? Method::ldlt : multigrid(A);
     }
 
-    using Maker = std::unique_ptr<LinearSolver> (*)(const ImplicitOperator &,
-                                                    const SolverParameters &,
-                                                    Effort &);
-
-    const std::map<Method, Maker> makers = {{Method::ldlt, make_ldlt_solver},
+    const std::map<Method, LinearSolver::Maker> makers = {{Method::ldlt, make_ldlt_solver},
                                             {Method::cholmod, make_cholmod_solver},
                                             {Method::cg_amg, make_cg_amg_solver},
                                             {Method::cg_ml, make_cg_ml_solver},
                                             {Method::cg_jacobi, make_cg_jacobi_solver}};
-
-    /** The solver that takes over when the chosen one fails; none for direct solvers, whose
-     * failure means that A is not positive definite. */
-    std::unique_ptr<LinearSolver>
-    make_stand_in(const Method method,
-                  const ImplicitOperator &A,
-                  const SolverParameters &parameters,
-                  Effort &effort)
-    {
-      if (method == Method::ldlt || method == Method::cholmod)
-        return nullptr;
-      const bool one_process =
-        dealii::Utilities::MPI::n_mpi_processes(A.body.mesh.communicator) == 1;
-      if (one_process && A.body.n_dofs() <= largest_stand_in_factor)
-        return make_cholmod_solver(A, parameters, effort);
-      if (method == Method::cg_amg && all_own(A))
-        return make_cg_ml_solver(A, parameters, effort);
-      return nullptr;
-    }
   } // namespace
 
 
@@ -137,6 +114,87 @@ namespace Supple
   }
 
 
+  /** A solver that is made anew where the pattern of A has become another one. */
+  class LinearSolver::Renewed : public LinearSolver
+  {
+  public:
+    Renewed(const ImplicitOperator &A,
+            const SolverParameters &parameters,
+            Effort &effort,
+            const Maker maker)
+      : LinearSolver(A, parameters, effort)
+      , maker(maker)
+      , solver(maker(A, parameters, effort))
+      , pattern(A.n_patterns())
+    {
+    }
+
+    std::string
+    name() const override
+    {
+      return solver->name();
+    }
+
+    std::vector<LevelShare>
+    coarse_levels() const override
+    {
+      return solver->coarse_levels();
+    }
+
+  private:
+    void
+    do_prepare(const Vector &displacement) override
+    {
+      if (pattern != A.n_patterns())
+        solver = maker(A, parameters, effort);
+      pattern = A.n_patterns();
+      solver->do_prepare(displacement);
+    }
+
+    unsigned int
+    do_solve(Vector &x, const Vector &b, Vector &residual) override
+    {
+      solver->parameters.tolerance = parameters.tolerance;
+      return solver->do_solve(x, b, residual);
+    }
+
+    const Maker maker;
+    std::unique_ptr<LinearSolver> solver;
+    unsigned int pattern; ///< of which it is
+  };
+
+
+  std::unique_ptr<LinearSolver>
+  LinearSolver::make(const Maker maker,
+                     const ImplicitOperator &A,
+                     const SolverParameters &parameters,
+                     Effort &effort)
+  {
+    if (A.forces.couplings_come_and_go())
+      return std::make_unique<Renewed>(A, parameters, effort, maker);
+    return maker(A, parameters, effort);
+  }
+
+
+  /** The solver that takes over when the chosen one fails; none for direct solvers, whose failure
+   * means that A is not positive definite. */
+  std::unique_ptr<LinearSolver>
+  LinearSolver::make_stand_in(const SolverMethod method,
+                              const ImplicitOperator &A,
+                              const SolverParameters &parameters,
+                              Effort &effort)
+  {
+    if (method == Method::ldlt || method == Method::cholmod)
+      return nullptr;
+    const bool one_process = dealii::Utilities::MPI::n_mpi_processes(A.body.mesh.communicator) == 1;
+    if (one_process && A.body.n_dofs() <= largest_stand_in_factor)
+      return make(make_cholmod_solver, A, parameters, effort);
+    if (method == Method::cg_amg && all_own(A))
+      return make(make_cg_ml_solver, A, parameters, effort);
+    return nullptr;
+  }
+
+
   std::unique_ptr<LinearSolver>
   LinearSolver::create(const ImplicitOperator &A,
                        const SolverParameters &parameters,
@@ -154,7 +212,7 @@ namespace Supple
       throw InputError(scene.origin("Solver/Method") +
                        ": ldlt and cholmod work on one process; on several take cg-amg or auto.");
 
-    std::unique_ptr<LinearSolver> solver = makers.at(method)(A, parameters, effort);
+    std::unique_ptr<LinearSolver> solver = make(makers.at(method), A, parameters, effort);
     solver->reason                       = reason;
     if (parameters.method == Method::automatic)
       solver->stand_in = make_stand_in(method, A, parameters, effort);

@@ -21,8 +21,8 @@ namespace Supple
     const std::vector<std::string> all_methods =
       {"imex5", "imex4", "imex3", "esdirk4", "trbdf2", "explicit4", "esdirk5", "backward euler"};
 
-    /** Of the reference: another method than those that win. */
-    const std::string reference_method = "esdirk5";
+    /** Of the reference: other methods than those that win. The first that a scene can have. */
+    const std::vector<std::string> reference_methods = {"esdirk5", "esdirk4"};
 
     /** What the two runs of the reference may be apart, over the aim. */
     constexpr double largest_distance = 0.5;
@@ -314,11 +314,35 @@ namespace Supple
   }
 
 
+  AimSearch::Candidate
+  AimSearch::candidate_of_reference() const
+  {
+    std::string refusal;
+    for (const std::string &name : reference_methods)
+      {
+        Candidate candidate{{name, name, {}, ""}, true, 1, AimCurve(1, true), {}};
+        try
+          {
+            candidate.order = plan.parameters(planned(candidate, 1e-3)).time.order();
+            candidate.curve = AimCurve(candidate.order, true);
+            return candidate;
+          }
+        catch (const InputError &error)
+          {
+            refusal = error.what();
+          }
+      }
+    throw InputError(parameters.place("Aim") +
+                     ": no method with variable steps can tell the errors of this scene. " +
+                     refusal);
+  }
+
+
   void
   AimSearch::find_reference()
   {
-    const Candidate method{
-      {reference_method, reference_method, {}, ""}, true, 5, AimCurve(5, true), {}};
+    const Candidate method = candidate_of_reference();
+    reference_method       = method.method.title;
     std::vector<std::pair<double, StudyRecord>> runs; // with their tolerances
     double distance  = nothing;
     double tolerance = std::min(1e-3, 0.1 * aim);
@@ -346,7 +370,8 @@ namespace Supple
     reference = runs.back().second;
     runs.pop_back();
     // ten times the tolerance is 10^(p / (p + 1)) times the error
-    reference_error       = distance / (std::pow(10., 5. / 6.) - 1.);
+    const double order    = method.order;
+    reference_error       = distance / (std::pow(10., order / (order + 1.)) - 1.);
     table.reference_error = reference_error;
     table.facts.push_back("Reference: " + planned(method, tolerance).label() +
                           "; its own error is about " + percent(reference_error) +

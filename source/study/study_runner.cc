@@ -129,7 +129,7 @@ namespace Supple
     Simulation simulation(scene, folder, true, communicator);
 
     Recorder recorder(
-      wanted, !scene.tools.empty(), simulation.probe_columns(), record, budget, communicator);
+      wanted, scene.has_contact(), simulation.probe_columns(), record, budget, communicator);
     try
       {
         simulation.run(&recorder);

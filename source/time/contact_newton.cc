@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace Supple
@@ -25,9 +26,26 @@ namespace Supple
   void
   ContactNewton::solve(ImplicitStage &stage)
   {
+    contact.require_room(model.configuration.passage, model.constraints);
+    contact.begin_step(model.configuration);
+    try
+      {
+        iterate(stage);
+      }
+    catch (const ComputationError &error)
+      {
+        throw ComputationError(error.what() + what_is_near());
+      }
+  }
+
+
+  void
+  ContactNewton::iterate(ImplicitStage &stage)
+  {
+    constexpr unsigned int patience = 3; // with round-off in forces that hardly act any more
+
     const Configuration &configuration = model.configuration;
-    contact.require_room(configuration.passage, model.constraints);
-    contact.begin_step(configuration);
+    unsigned int n_small               = 0; // corrections
     choose_passage(stage);
     warm_up(stage);
     for (unsigned int n = 0; n < model.time.newton_limit; ++n)
@@ -39,7 +57,9 @@ namespace Supple
         ++n_iterations;
 
         const double safe = contact.safe_part(configuration, way, 1.);
-        const bool last   = arrived && safe == 1. && stage.is_done(correction);
+        const bool small  = arrived && safe == 1. && stage.is_done(correction);
+        const bool last   = small && (!touched || n_small == patience || is_balanced(stage));
+        n_small += small;
         const bool free   = safe == 1. && !touched && stage.is_linear();
         if (!arrived || last || free)
           {
@@ -51,7 +71,22 @@ namespace Supple
         else
           search(stage, safe);
       }
-    throw_not_done();
+    throw ComputationError("Newton's method is not done after " +
+                           std::to_string(model.time.newton_limit) +
+                           " iterations (Time/Newton iterations)");
+  }
+
+
+  /** A correction that is small beside the body may still be large beside the barrier. */
+  bool
+  ContactNewton::is_balanced(const ImplicitStage &stage)
+  {
+    constexpr double small = 1e-3; // of the forces before the last correction: squared after it
+
+    const Configuration &configuration = model.configuration;
+    sum_into(contact_force,
+             [&](double *sum) { contact.add_force(configuration, configuration.passage.to, sum); });
+    return stage.residual().l2_norm() <= small * contact_force.l2_norm();
   }
 
 
@@ -190,8 +225,8 @@ namespace Supple
   }
 
 
-  void
-  ContactNewton::throw_not_done() const
+  std::string
+  ContactNewton::what_is_near() const
   {
     std::string nearest;
     double least                          = std::numeric_limits<double>::max();
@@ -199,12 +234,15 @@ namespace Supple
     for (unsigned int t = 0; t < reports.size(); ++t)
       if (reports[t].gap < least)
         {
-          nearest = contact.all_tools()[t].parameters.name;
+          nearest = "the tool " + contact.all_tools()[t].parameters.name;
           least   = reports[t].gap;
         }
-    throw ComputationError("Newton's method is not done after " +
-                           std::to_string(model.time.newton_limit) +
-                           " iterations (Time/Newton iterations); the nearest tool is " + nearest +
-                           ", with a gap of " + digits(least, 2) + " m");
+    if (const std::optional<double> own = contact.own_gap(model.configuration);
+        own && *own < least)
+      {
+        nearest = "another body";
+        least   = *own;
+      }
+    return "; the least gap is that to " + nearest + ", " + digits(least, 2) + " m";
   }
 } // namespace Supple

@@ -200,7 +200,8 @@ namespace Supple
   StaticEquilibrium::size_of_forces(const double load_factor) const
   {
     const double forces = residual.l2_norm();
-    return load_factor * load_size + (loads_follow ? std::min(forces, forces_at_start) : forces);
+    const bool runs_away = loads_follow && !model.forces.contact(); // what is touched holds it
+    return load_factor * load_size + (runs_away ? std::min(forces, forces_at_start) : forces);
   }
 
 

@@ -1,6 +1,5 @@
-"""Tools that touch the body: Hertz's force, friction on an incline, impact, weight, and tools that stay outside whatever happens.
-The second argument is the part of
-the test to run."""
+"""Bodies that touch tools, each other and themselves: Hertz's force, friction on an incline, impact, weight, patches, momentum, folds, and
+nothing that passes through anything, whatever happens. The second argument is the part of the test to run."""
 
 import math
 import pathlib
@@ -9,6 +8,7 @@ import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import runner
+import vtu
 
 CONTACT = runner.ROOT / "parameters" / "contact"
 HERTZ, INCLINE, BOUNCE, SKIN = [CONTACT / f"{name}.prm" for name in ("hertz", "incline", "bounce", "needle-skin")]
@@ -184,6 +184,119 @@ def plane():
     # Where nothing touches, a linear body needs a single factorization.
     far = simulate(CUBE, {"Corotation/Rotation": "none", "Tool floor/Position": "0; 0; -10"})
     runner.check(far.summary()["built"]["factorizations"] == 1, f"{far.summary()['built']['factorizations']} factorizations far from tools")
+
+
+def write_box(path, size):
+    """A closed surface of triangles, in millimeters."""
+    corners = [[500 * size[i] * (1 if k >> i & 1 else -1) for i in range(3)] for k in range(8)]
+    faces = [(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4), (2, 6, 3), (3, 6, 7), (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)]
+    path.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in faces))
+
+
+def shapes():
+    """A box and triangles of a file bear a cube as a plane does, and turn it over; a ball that spins in place drags what it touches."""
+    write_box(folder / "table.obj", (0.3, 0.3, 0.02))
+    box = {"Tool floor/Shape": "box", "Tool floor/Size": "0.3, 0.3, 0.02", "Tool floor/Position": "0.05; 0.05; -0.01"}
+    triangles = {"Tool floor/Shape": "file", "Tool floor/File": "table.obj", "Tool floor/Scale": 0.001, "Tool floor/Position": "0.05; 0.05; -0.01"}
+    weight = {}
+    for name, settings in (("box", box), ("triangles", triangles)):
+        rest = simulate(CUBE, {**settings, "Solver/Tolerance": 1e-12})
+        last = rest.table("tool_floor.csv")[-1]
+        runner.check(abs(last["fz"] / 9.81 - 1) < 1e-7 and abs(last["tx"]) + abs(last["ty"]) < 1e-6, f"{name}: weight {last}")
+        runner.check(balance(rest.history()) < 1e-12, f"{name}: energies out of balance by {balance(rest.history())}")
+        weight[name] = last["fz"]
+        small = {"Tool floor/Size": "0.02, 0.02, 0.02"} if name == "box" else {"Tool floor/Scale": 1e-4}
+        over = simulate(CUBE, {**settings, **small, "Tool floor/Rotation": "0; 0; 20", "Time/Step": 0.005, "Time/Steps": 60})
+        runner.check(balance(over.history()) < 1e-10 and over.history()[-1]["lx"] != 0, f"{name}: turned over, {balance(over.history())}")
+
+    ball = {"Tool floor/Shape": "sphere", "Tool floor/Radius": 0.02, "Tool floor/Friction": 0.3, "Loads/Gravity": "0, 0, 0",
+            "Constraints/Clamped boundaries": "5", "Contact/Slip resolution": 1e-3, "Time/Step": 1e-3, "Time/Steps": 40}
+    spun = simulate(CUBE, {**ball, "Tool floor/Position": "0.05; 0.05; min(0.1*t, 0.002) + 0.0002", "Tool floor/Rotation": "2000*max(t - 0.02, 0); 0; 0"})
+    last = spun.table("tool_floor.csv")[-1]
+    runner.check(abs(abs(last["fy"] / last["fz"]) - 0.3) < 0.03, f"a ball that spins drags by {last['fy']} N where it presses by {last['fz']} N")
+    runner.check(abs(abs(last["tx"] / (0.02 * last["fy"])) - 1) < 0.03, f"its torque is {last['tx']} N m")
+    runner.check(balance(spun.history()) < 1e-10, f"spun: energies out of balance by {balance(spun.history())}")
+
+
+def patch():
+    """Two blocks of different meshes are pressed together: the stress is the same everywhere, but for some error by the guards."""
+    for name, cubes, height in (("below", "4, 4, 4", 0), ("above", "6, 6, 6", 0.1001)):
+        scene = folder / f"{name}.prm"
+        scene.write_text(f"subsection Mesh\n set Box size = 0.1, 0.1, 0.1\n set Box cubes = {cubes}\n set Box origin = 0, 0, {height}\nend\n{SOFT}")
+        status, _, error = runner.run(scene, "--quiet", "--output", folder / name, *runner.overrides(
+            {**quiet, "Output/Mesh": "true", "Time/Steps": 1}))
+        runner.check(status == 0, error)
+    both = folder / "patch.prm"
+    both.write_text(f"""subsection Mesh
+  set Shape            = file
+  set File             = below/mesh.msh, above/mesh.msh
+  set Boundary regions = 9: z < 1e-9
+end
+{SOFT}subsection Corotation
+  set Rotation = none
+end
+subsection Contact
+  set Bodies = pieces
+  set Reach  = 0.0001
+end
+subsection Constraints
+  set Boundaries held along x = 0
+  set Boundaries held along y = 2
+  set Boundaries held along z = 9
+end
+subsection Motion
+  set Of           = region z > 0.2000999
+  set Displacement = free; free; -0.002*t
+end
+subsection Time
+  set Problem = static
+  set Steps   = 2
+end
+""")
+    for guard, limit in ((0.1, 0.02), (0.01, 0.01)):
+        pressed = simulate(both, {"Contact/Guard": guard, "Output/Frames": 2})
+        stress = vtu.Frame(sorted((pressed.folder / "solution").glob("*.vtu"))[-1]).of_cells["von_mises_stress"]
+        mean = sum(stress) / len(stress)
+        worst = max(abs(value / mean - 1) for value in stress)
+        runner.check(900 < mean < 1000 and worst < limit, f"guard {guard}: stresses of {mean} Pa differ by {worst}")
+
+
+def bodies():
+    """A stack rests on the floor by friction; two balls that meet keep their momenta, in any units."""
+    stack = simulate(CONTACT / "stack.prm", {"Time/Steps": 100})
+    weight = stack.table("tool_floor.csv")[-1]["fz"]
+    runner.check(abs(weight / 29.43 - 1) < 1e-4, f"the stack weighs {weight} N")
+    top = stack.probes()[-1]
+    runner.check(max(abs(top[f"top.v{i}"]) for i in "xyz") < 1e-3 and abs(top["top.ux"]) + abs(top["top.uy"]) < 2e-4, f"the stack moves: {top}")
+    runner.check(balance(stack.history()) < 1e-10, f"stack: energies out of balance by {balance(stack.history())}")
+
+    balls = folder / "balls.prm"
+    balls.write_text((CONTACT / "two-spheres.prm").read_text().replace("8, 8, 8", "4, 4, 4"))
+    exact = {"Solver/Tolerance": 1e-12, "Time/Step": 0.002, "Time/Steps": 40, "Time/Method": "backward euler"}
+    met = simulate(balls, exact)
+    history = met.history()
+    kept = max(abs(row[name] - history[0][name]) for row in history for name in ("px", "py", "pz"))
+    runner.check(kept < 1e-12 and max(row["contact"] for row in history) > 0, f"the momentum changes by {kept}")
+    turn = max(abs(row[f"l{i}"] - history[0][f"l{i}"]) for row in history for i in "xyz")
+    runner.check(turn < 1e-3 * abs(history[0]["ly"]), f"the angular momentum changes by {turn} of {history[0]['ly']}")
+    runner.check(balance(history) < 1e-11, f"balls: energies out of balance by {balance(history)}")
+    large = simulate(balls, {**exact, "Mesh/Map": "10*x; 10*y; 10*z", "Start/Velocity": "if(x < 0, 5, -5); 0; 0", "Material/Young modulus": 1e7})
+    for a, b in zip(history, large.history()):
+        runner.check(abs(a["contact"] * 1e5 - b["contact"]) < 1e-7 * history[0]["kinetic"] * 1e5, f"in other units: {b['contact']} J")
+    half = folder / "resumed-balls"
+    for steps in (20, 40):
+        status, _, error = runner.run(balls, "--quiet", "--output", half, *runner.overrides(
+            {**quiet, **exact, "Checkpoint/Every": 5, "Checkpoint/Resume": "auto", "Time/Steps": steps}))
+        runner.check(status == 0, error)
+    difference = runner.largest_difference(history, runner.Results(half).history(), ["kinetic", "elastic", "contact", "px"])
+    runner.check(difference < 1e-9, f"balls: history.csv differs by {difference} after a checkpoint")
+
+
+def folds():
+    """A hairpin is pressed flat on itself, in space and in the plane, and nothing passes through anything."""
+    fold = simulate(CONTACT / "fold.prm", {"Mesh/Box cubes": "32, 1, 1", "Time/Steps": 90})
+    runner.check(max(row["contact"] for row in fold.history()) > 0 and max(row["inverted"] for row in fold.history()) == 0, "no fold")
+    runner.check(balance(fold.history()) < 1e-9, f"fold: energies out of balance by {balance(fold.history())}")
 
 
 globals()[sys.argv[2]]()

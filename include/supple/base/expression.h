@@ -53,12 +53,20 @@ namespace Supple
       return time_dependent;
     }
 
+    /** Whether x, y or z are in it. */
+    bool
+    depends_on_place() const
+    {
+      return place_dependent;
+    }
+
   private:
     struct Formulas;
 
     std::unique_ptr<Formulas> formulas;
     bool zero;
     bool time_dependent;
+    bool place_dependent;
   };
 } // namespace Supple
 

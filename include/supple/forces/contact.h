@@ -1,20 +1,23 @@
 #ifndef supple_contact_h
 #define supple_contact_h
 
-#include <supple/forces/contact_pairs.h>
+#include <supple/contact/contact_pairs.h>
+#include <supple/contact/contact_search.h>
+#include <supple/contact/friction.h>
+#include <supple/contact/tool_report.h>
 #include <supple/forces/force.h>
-#include <supple/forces/friction.h>
-#include <supple/forces/tool_report.h>
 #include <supple/mechanics/constraints.h>
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace Supple
 {
   /**
-   * The force by which rigid tools keep the body out. With the gaps g between points of its surface
-   * and tools it is minus the gradient of
+   * The force by which rigid tools keep the body out, and bodies each other and themselves. With
+   * the gaps g between points of the surface and what they meet it is minus the gradient of
    *
    *   B = kappa sum w b(g),
    *
@@ -25,7 +28,9 @@ namespace Supple
    * gives back.
    *
    * A tool touches up to three nodes of a face at once, which share a cell: the pattern of the
-   * operator stays as it is. The tangent is definite in all of its kinds.
+   * operator stays as it is. Where the surface touches itself, up to six nodes are coupled: as soon
+   * as two of them were not, the pattern gets the pairs of all that is near. The tangent is
+   * definite in all of its kinds.
    */
   class Contact : public Force
   {
@@ -92,6 +97,21 @@ namespace Supple
     creep(const Configuration &configuration) const;
 
     void
+    add_couplings(Couplings &couplings) const override;
+
+    bool
+    couplings_come_and_go() const override
+    {
+      return bodies != ContactParameters::Bodies::tools;
+    }
+
+    bool
+    couplings_have_changed() const override
+    {
+      return pattern_is_old;
+    }
+
+    void
     connect(const SymmetricPattern &pattern) override;
 
     void
@@ -141,18 +161,23 @@ namespace Supple
     std::vector<ToolReport>
     reports(const Configuration &configuration) const;
 
+    /** The least gap of the surface to itself, but no more than the reach of the barrier [m]; none
+     * if bodies meet tools alone. Collective. */
+    std::optional<double>
+    own_gap(const Configuration &configuration) const;
+
     /** What each tool does on its way in a step, with its force at the start taken by @p weight and
      * that at the end by the rest; collective [J]. */
     std::vector<double>
     works(const Configuration &configuration, double weight) const;
 
-    /** The pressure of all tools on each node, over its share of the surface, as the first of its
-     * three numbers [Pa]. */
+    /** The pressure of all that touches on each node, over its share of the surface, as the first of
+     * its three numbers [Pa]. */
     Vector
     pressure(const Configuration &configuration) const;
 
-    /** @throws InputError if the body or a part of it is within a tool, or the other way round;
-     * collective */
+    /** @throws InputError if the body or a part of it is within a tool or another body, or the other
+     * way round; collective */
     void
     require_clear(const Configuration &configuration, const ParameterFile &scene) const;
 
@@ -164,6 +189,13 @@ namespace Supple
     /** What a user should know of the start, in sentences; collective. */
     std::vector<std::string>
     warnings_of_start(const Configuration &configuration) const;
+
+    /** The largest angle by which each tool has turned within a step so far [rad]. */
+    const std::vector<double> &
+    turns_within_steps() const
+    {
+      return largest_turns;
+    }
 
     const std::vector<Tool> &
     all_tools() const
@@ -184,12 +216,25 @@ namespace Supple
     Nearest
     nearest(const double *u, const PlacedTool &tool) const;
 
-    std::vector<PlacedTool>
-    placed_tools(const Passage &passage) const;
+    std::vector<Pose>
+    poses(const Passage &passage) const;
 
     /** @param u displacement of all local nodes [m] */
     std::vector<ContactPair>
     pairs(const double *u, const Passage &passage) const;
+
+    /** Takes all that is near as what the pattern must couple, if a pair of the surface with itself
+     * is not coupled. */
+    void
+    renew_couplings(const double *u, const Passage &passage);
+
+    /** Whether the body has this place within a cell; this process's part. */
+    bool
+    body_contains(const double *u, const Arrow &place) const;
+
+    /** @throws InputError if the surface crosses itself */
+    void
+    require_no_crossing(const double *u, const ParameterFile &scene) const;
 
     /** Adds what the forces at the end of a step, or at its start, do on the way of the tools. */
     void
@@ -198,6 +243,9 @@ namespace Supple
               const Passage &step,
               bool at_end,
               double weight) const;
+
+    void
+    note_turns(const Passage &passage);
 
     std::vector<Friction::Slip>
     slips(const double *u, const Passage &passage) const;
@@ -209,31 +257,50 @@ namespace Supple
       return stiffness * pair.weight * pair.factor;
     }
 
+    /** Without the factor of pairs that are parallel [J]. */
+    double
+    energy_of(const ContactPair &pair) const;
+
+    /** What the couple between two edges that are almost parallel does where the tool turns [J]. */
+    double
+    turning_work(const ContactPair &pair,
+                 const Pose &now,
+                 const Pose &first,
+                 const Pose &last) const;
+
     /** On the surface [N]. */
     Arrow
     force_of(const ContactPair &pair) const;
 
-    /** f += the force of a pair on the nodes of its part. */
+    /** f += the force of a pair on its nodes. */
     void
     add_force(const ContactPair &pair, double *f) const;
 
-    /** f += the force at the place of a pair on the nodes of its part. */
+    /** f += the force at the place of a pair on its nodes. */
     static void
     spread(const ContactPair &pair, const Arrow &force, double *f);
 
     struct Stiffness
     {
-      const SurfacePart *part;
-      PartMatrix matrix; ///< [N/m]
+      unsigned int n;
+      std::array<unsigned int, 6> nodes;
+      PairMatrix matrix; ///< [N/m]
     };
 
     const Body &body;
-    const double guard;
     const double stiffness; ///< kappa [Pa]
+    const ContactParameters::Bodies bodies;
     ContactSurface surface;
+    const double reach; ///< of the barrier between bodies [m]
     std::vector<Tool> tools;
+    PairFinder finder;
+    mutable ContactSearch search;
     std::vector<Stiffness> tangent;
     Friction friction;
+    std::vector<double> largest_turns; ///< within a step, of each tool [rad]
+    const SymmetricPattern *pattern = nullptr;
+    Couplings coupled; ///< of the surface with itself, ascending
+    bool pattern_is_old = false;
   };
 } // namespace Supple
 

@@ -114,6 +114,20 @@ namespace Supple
     {
     }
 
+    /** Whether it couples other nodes at times than at others. */
+    virtual bool
+    couplings_come_and_go() const
+    {
+      return false;
+    }
+
+    /** Whether add_couplings() would add others than when connect() was called. */
+    virtual bool
+    couplings_have_changed() const
+    {
+      return false;
+    }
+
     /** Finds its places in matrices of this pattern, which must outlive it. */
     virtual void
     connect(const SymmetricPattern &)

@@ -1,7 +1,7 @@
 #ifndef supple_forces_h
 #define supple_forces_h
 
-#include <supple/forces/contact_parameters.h>
+#include <supple/contact/contact_parameters.h>
 #include <supple/forces/elastic_force.h>
 #include <supple/forces/load_parameters.h>
 
@@ -41,11 +41,11 @@ namespace Supple
 
     ~Forces();
 
-    /** That of rigid tools; null in a scene without them. */
+    /** That of tools and of bodies with each other; null in a scene without. */
     Contact *
     contact() const
     {
-      return of_tools;
+      return of_contact;
     }
 
     /** Adds a force; before the operator is made. */
@@ -159,6 +159,14 @@ namespace Supple
     Couplings
     couplings() const;
 
+    /** Whether some force couples other nodes at times than at others. */
+    bool
+    couplings_come_and_go() const;
+
+    /** Whether these are others than when connect() was called. */
+    bool
+    couplings_have_changed() const;
+
     /** Finds all places in matrices of this pattern, which must outlive the forces. */
     void
     connect(const SymmetricPattern &pattern);
@@ -206,7 +214,7 @@ namespace Supple
     const Body &body;
     std::vector<std::unique_ptr<Force>> list; ///< that of the cells first
     ElasticForce *of_cells;
-    Contact *of_tools = nullptr;
+    Contact *of_contact = nullptr;
     mutable Vector loads; ///< at hand
   };
 } // namespace Supple

@@ -137,6 +137,10 @@ namespace Supple
   public:
     SymmetricBlockMatrix(const SymmetricPattern &pattern);
 
+    /** Takes the size of the pattern, which has become another one; all entries are zero then. */
+    void
+    fit_pattern();
+
     void
     set_zero();
 

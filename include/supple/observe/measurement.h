@@ -1,7 +1,7 @@
 #ifndef supple_measurement_h
 #define supple_measurement_h
 
-#include <supple/forces/tool_report.h>
+#include <supple/contact/tool_report.h>
 
 #include <array>
 #include <optional>

@@ -90,9 +90,13 @@ namespace Supple
     const CellFields &
     fields(unsigned int step);
 
-    /** What names the frames with their times: solution.pvd. */
+    /** What names the files of all frames with their times, as solution.pvd does. */
     std::string
-    collection() const;
+    collection(const std::vector<std::string> &files) const;
+
+    /** Draws the tools as they are in the last frame; on the first process. */
+    void
+    write_tools() const;
 
     /** Writes the files of this frame. */
     void

@@ -1,12 +1,14 @@
 #ifndef supple_report_h
 #define supple_report_h
 
+#include <supple/contact/tool.h>
 #include <supple/output/film.h>
 #include <supple/scene/parameters.h>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>
+#include <vector>
 
 namespace Supple
 {
@@ -17,13 +19,16 @@ namespace Supple
    * the page says so.
    * @param summary as in summary.json
    * @param film    may be null
+   * @param extent  with which planes are drawn [m]
    * @throws WriteError
    */
   void
   write_report(const std::string &folder,
                const Parameters &parameters,
                const nlohmann::ordered_json &summary,
-               const Film *film);
+               const Film *film,
+               const std::vector<Tool> &tools,
+               double extent);
 } // namespace Supple
 
 #endif

@@ -2,6 +2,7 @@
 #define supple_results_h
 
 #include <supple/base/folder_lock.h>
+#include <supple/run/problem.h>
 #include <supple/run/summary.h>
 #include <supple/run/writers.h>
 #include <supple/scene/parameters.h>
@@ -56,7 +57,7 @@ namespace Supple
     /** Writes summary.json, and the report if one is wanted. @param film of the report, or null
      * @throws WriteError on the first process */
     void
-    write_end(const Summary &summary, const Film *film) const;
+    write_end(const Summary &summary, const Film *film, const Problem &problem) const;
 
     /** The file of the report; empty if none is wanted. */
     std::string

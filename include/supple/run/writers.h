@@ -3,7 +3,7 @@
 
 #include <supple/base/csv_file.h>
 #include <supple/base/effort.h>
-#include <supple/forces/contact_parameters.h>
+#include <supple/contact/contact_parameters.h>
 #include <supple/observe/probes.h>
 #include <supple/observe/profiles.h>
 #include <supple/output/frames.h>

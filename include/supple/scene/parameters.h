@@ -1,7 +1,7 @@
 #ifndef supple_parameters_h
 #define supple_parameters_h
 
-#include <supple/forces/contact_parameters.h>
+#include <supple/contact/contact_parameters.h>
 #include <supple/forces/load_parameters.h>
 #include <supple/mechanics/constraint_parameters.h>
 #include <supple/mechanics/material_parameters.h>
@@ -30,6 +30,14 @@ namespace Supple
     LoadParameters loads;
     ContactParameters contact;
     std::vector<ToolParameters> tools;
+
+    /** Whether anything touches anything. */
+    bool
+    has_contact() const
+    {
+      return !tools.empty() || contact.between_bodies();
+    }
+
     StartParameters start;
     TimeParameters time;
     SolverParameters solver;

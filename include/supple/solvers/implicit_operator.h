@@ -103,6 +103,14 @@ namespace Supple
       return A;
     }
 
+    /** How often the pattern of the matrices has become another one: what was made for the last one
+     * is of no use. */
+    unsigned int
+    n_patterns() const
+    {
+      return patterns;
+    }
+
     const SymmetricScalarMatrix &
     mass_matrix() const
     {
@@ -117,7 +125,7 @@ namespace Supple
 
     const Body &body;
     const Constraints &constraints;
-    const Forces &forces;
+    Forces &forces;
     const DampingParameters &damping;
 
     /** What resists to a change of volume in place of the cells; null if they do it themselves. */
@@ -128,8 +136,13 @@ namespace Supple
     }
 
   private:
+    /** Sets a matrix to A. @param added_bulk as of Forces::add_tangent() */
     void
-    assemble(SymmetricBlockMatrix &matrix, double added_bulk) const;
+    set_matrix(SymmetricBlockMatrix &matrix, double added_bulk) const;
+
+    /** Assembles A, with another pattern if the forces need one. */
+    void
+    make();
 
     /** What bounded matrices have added, in shear moduli. */
     double
@@ -160,10 +173,18 @@ namespace Supple
     void
     find_masked_entries();
 
+    /** Makes matrices of a pattern with what the forces couple now. */
+    void
+    renew_pattern();
+
+    void
+    make_mass();
+
     Configuration &configuration; ///< of which the kept rotations change here
     Effort &effort;
     const double warp_tolerance; ///< [rad]
-    const SymmetricPattern pattern;
+    SymmetricPattern pattern;
+    unsigned int patterns = 0;
     SymmetricBlockMatrix A;
     TangentFactors factors;
     double diagonal = 0.;    ///< beside them

@@ -21,6 +21,11 @@ namespace Supple
   public:
     virtual ~LinearSolver() = default;
 
+    /** Makes one kind of solver. */
+    using Maker = std::unique_ptr<LinearSolver> (*)(const ImplicitOperator &,
+                                                    const SolverParameters &,
+                                                    Effort &);
+
     /** The solver a scene asks for; `auto` chooses by size, use and number of processes.
      * @throws InputError for a solver that works on one process, on several; @p scene knows where
      * the entries were set */
@@ -94,6 +99,21 @@ namespace Supple
     Effort &effort;
 
   private:
+    class Renewed;
+
+    /** As the maker does, for an operator whose pattern may change too. */
+    static std::unique_ptr<LinearSolver>
+    make(Maker maker,
+         const ImplicitOperator &A,
+         const SolverParameters &parameters,
+         Effort &effort);
+
+    static std::unique_ptr<LinearSolver>
+    make_stand_in(SolverMethod method,
+                  const ImplicitOperator &A,
+                  const SolverParameters &parameters,
+                  Effort &effort);
+
     virtual void
     do_prepare(const Vector &displacement) = 0;
 

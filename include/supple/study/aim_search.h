@@ -108,6 +108,10 @@ namespace Supple
     void
     find_reference();
 
+    /** @throws InputError if the scene can't have any of the methods of a reference */
+    Candidate
+    candidate_of_reference() const;
+
     /** @throws ComputationError that the aim is below what can be told */
     [[noreturn]] void
     refuse_aim(double told) const;
@@ -178,6 +182,7 @@ namespace Supple
     const double whole_aim; ///< relative
     const double aim;       ///< of it in time
     std::optional<StudyRecord> reference;
+    std::string reference_method;
     double reference_error   = 0.; ///< relative
     double reference_seconds = 0.; ///< until the reference was there
     double best_seconds;           ///< of a run that meets the aim, so far

@@ -70,8 +70,16 @@ namespace Supple
     Slope
     slope(const ImplicitStage &stage);
 
-    [[noreturn]] void
-    throw_not_done() const;
+    /** Whether what is left of the forces is small beside that of contact. Collective. */
+    bool
+    is_balanced(const ImplicitStage &stage);
+
+    void
+    iterate(ImplicitStage &stage);
+
+    /** For messages: what is nearest to the body, and how near. Collective. */
+    std::string
+    what_is_near() const;
 
     const Model model;
     Contact &contact;

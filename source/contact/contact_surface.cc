@@ -1,4 +1,4 @@
-#include <supple/forces/contact_surface.h>
+#include <supple/contact/contact_surface.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -39,6 +39,11 @@ namespace Supple
     else
       collect_triangles();
     collect_rest();
+    represent();
+    for (const SurfacePart &face : faces())
+      nodes.insert(nodes.end(), face.nodes.begin(), face.nodes.begin() + face.n);
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
 
 
@@ -47,7 +52,7 @@ namespace Supple
   {
     for (const LocalFace &face : body.mesh.parts->faces)
       {
-        SurfacePart edge{2, {{face.nodes[0], face.nodes[1], face.nodes[1]}}, 0., face.owned, {}};
+        SurfacePart edge{2, {{face.nodes[0], face.nodes[1], face.nodes[1]}}, 0., face.owned};
         const Arrow a = body.position(edge.nodes[0]), b = body.position(edge.nodes[1]);
         edge.measure = (b - a).norm() * body.mesh.section.thickness_at(0.5 * (a[0] + b[0]));
         edges.push_back(edge);
@@ -65,7 +70,7 @@ namespace Supple
           const Arrow a = body.position(nodes[0]);
           const Arrow b = body.position(nodes[1]) - a, c = body.position(nodes[2]) - a;
           triangles.push_back(
-            {3, nodes, 0.5 * dealii::cross_product_3d(b, c).norm(), mesh.faces[f].owned, {}});
+            {3, nodes, 0.5 * dealii::cross_product_3d(b, c).norm(), mesh.faces[f].owned});
         }
   }
 
@@ -86,12 +91,12 @@ namespace Supple
         }
     for (unsigned int node = 0; node < body.n_owned; ++node)
       if (of_vertex[node] > 0.)
-        vertices.push_back({1, {{node, node, node}}, of_vertex[node], true, {}});
+        vertices.push_back({1, {{node, node, node}}, of_vertex[node], true});
     for (const auto &[nodes, measure] : of_edge)
       {
         const bool ascending = body.serial_vertex[nodes[0]] < body.serial_vertex[nodes[1]];
         const bool owned     = owns(nodes[ascending ? 0 : 1]);
-        edges.push_back({2, {{nodes[0], nodes[1], nodes[1]}}, measure, owned, {}});
+        edges.push_back({2, {{nodes[0], nodes[1], nodes[1]}}, measure, owned});
       }
     for (std::vector<SurfacePart> *parts : {&edges, &triangles})
       parts->erase(std::remove_if(parts->begin(),
@@ -104,28 +109,14 @@ namespace Supple
   }
 
 
-  void
-  ContactSurface::connect(const SymmetricPattern &pattern)
+  Simplex
+  ContactSurface::simplex(const SurfacePart &part, const double *const u) const
   {
-    for (std::vector<SurfacePart> *parts : {&edges, &triangles})
-      for (SurfacePart &part : *parts)
-        for (unsigned int w = 1, pair = 0; w < part.n; ++w)
-          for (unsigned int v = 0; v < w; ++v, ++pair)
-            {
-              const auto &[column, row] = std::minmax(part.nodes[v], part.nodes[w]);
-              part.places[pair]         = pattern.position(row, column);
-            }
-  }
-
-
-  Corners
-  ContactSurface::corners(const SurfacePart &part, const double *const u) const
-  {
-    Corners x;
+    Simplex simplex{part.n, {}};
     for (unsigned int v = 0; v < part.n; ++v)
       for (unsigned int i = 0; i < 3; ++i)
-        x[v][i] = body.positions[part.nodes[v]][i] + u[3 * part.nodes[v] + i];
-    return x;
+        simplex.x[v][i] = body.positions[part.nodes[v]][i] + u[3 * part.nodes[v] + i];
+    return simplex;
   }
 
 

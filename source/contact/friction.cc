@@ -1,4 +1,4 @@
-#include <supple/forces/friction.h>
+#include <supple/contact/friction.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ namespace Supple
     for (std::size_t k = 0; k < list.size(); ++k)
       {
         const auto &[pair, force] = list[k];
-        const double limit        = coefficients[pair.tool] * force;
+        const double limit        = coefficients[std::min<std::size_t>(pair.tool, coefficients.size() - 1)] * force;
         if (limit > 0.)
           touches.push_back({pair, limit, surface_places[k]});
       }
@@ -45,11 +45,11 @@ namespace Supple
     std::vector<Slip> slips;
     for (const Touch &touch : touches)
       {
-        const auto &[on_surface, on_tool] = places(touch.pair);
-        const Arrow way                   = on_surface - touch.place - (on_tool - touch.pair.place);
+        const auto &[now, other] = places(touch.pair, touch.place);
+        const Arrow way          = now - touch.place - (other - touch.place);
         const Arrow &n                    = touch.pair.normal;
         slips.push_back(
-          {&touch.pair, touch.limit, way - (n * way) * n, slip_resolution * duration});
+          {&touch.pair, touch.limit, touch.place, way - (n * way) * n, slip_resolution * duration});
       }
     return slips;
   }

@@ -1,7 +1,7 @@
 #ifndef supple_friction_h
 #define supple_friction_h
 
-#include <supple/forces/contact_pairs.h>
+#include <supple/contact/contact_pairs.h>
 
 #include <functional>
 #include <vector>
@@ -10,8 +10,8 @@ namespace Supple
 {
   /**
    * Coulomb's friction of a step, made smooth (Li et al., ACM Trans. Graphics 39 (2020) 49): where
-   * the surface and a tool touched at its start, the slip s is how far they have moved along each
-   * other since. With the slip resolution v of a step dt, h = v dt and y = |s|,
+   * the surface touched a tool or itself at its start, the slip s is how far both sides have moved
+   * along each other since. With the slip resolution v of a step dt, h = v dt and y = |s|,
    *
    *   D = sum mu lambda f0(y),   f0 = y^2/h - y^3/(3 h^2) + h/3 for y < h, or else y,
    *
@@ -21,11 +21,11 @@ namespace Supple
   class Friction
   {
   public:
-    /** @param coefficients mu of each tool
+    /** @param coefficients mu of each tool, and last that between bodies
      * @param slip_resolution v [m/s] */
     Friction(const std::vector<double> &coefficients, double slip_resolution);
 
-    /** Whether any tool has friction. */
+    /** Whether there is any. */
     bool
     any() const;
 
@@ -48,6 +48,7 @@ namespace Supple
     {
       const ContactPair *pair; ///< at the start of the step
       double limit;            ///< mu lambda [N]
+      Arrow start;             ///< where it touched at the start of the step [m]
       Arrow way;               ///< s [m]
       double resolution;       ///< h [m]
 
@@ -73,11 +74,10 @@ namespace Supple
       secant() const;
     };
 
-    /** Slips now. @param places of a pair: now on the surface, and where its place on the tool is
-     * [m]
-     * @param duration since the start of the step [s] */
-    using Places = std::function<std::pair<Arrow, Arrow>(const ContactPair &)>;
+    /** Of a pair, now: sum c_i x_i, and where what was at a place of the other side is [m]. */
+    using Places = std::function<std::pair<Arrow, Arrow>(const ContactPair &, const Arrow &)>;
 
+    /** Slips now. @param duration since the start of the step [s] */
     std::vector<Slip>
     slips(const Places &places, double duration) const;
 

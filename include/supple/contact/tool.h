@@ -2,21 +2,20 @@
 #define supple_tool_h
 
 #include <supple/base/expression.h>
-#include <supple/forces/contact_parameters.h>
+#include <supple/contact/contact_parameters.h>
+#include <supple/contact/tool_shape.h>
 #include <supple/mechanics/configuration.h>
 #include <supple/mesh/section.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <limits>
+#include <memory>
 #include <vector>
 
 namespace Supple
 {
-  /** A direction or a distance between points [m]. */
-  using Arrow = dealii::Tensor<1, 3>;
-
-
   /** Where a rigid body is: its reference point, and how far it is turned about that. */
   struct Pose
   {
@@ -26,6 +25,10 @@ namespace Supple
     /** A vector that the body carries. */
     Arrow
     turned(const Arrow &vector) const;
+
+    /** The same the other way round. */
+    Arrow
+    turned_back(const Arrow &vector) const;
 
     /** Where the point of the body that is here with this pose was with another one. */
     Arrow
@@ -39,19 +42,42 @@ namespace Supple
   between(const Pose &from, const Pose &to, double part);
 
 
-  /** A tool in its place: a half-space, or all points that are no farther from a segment than a
-   * radius. A sphere has a segment of no length. */
+  /** A tool in its place: a half-space, or all points that are no farther from its core than a
+   * distance. */
   struct PlacedTool
   {
-    bool is_plane;
-    Arrow begin;  ///< of the segment, or a point of the plane [m]
-    Arrow end;    ///< of the segment [m]
-    Arrow normal; ///< of the plane, toward the body, of length 1
+    const ToolShape *shape;    ///< null for a plane
+    std::vector<Arrow> points; ///< of the core, or one of the plane [m]
+    Arrow normal;              ///< of the plane, toward the body, of length 1
 
-    /** Distance from the segment, or height above the plane, from where on the barrier acts no
-     * more is @p offset and its reach [m]. */
+    /** Distance from the core, or height above the plane, from where on the barrier acts no more is
+     * @p offset and its reach [m]. */
     double offset;
     double reach; ///< of the barrier [m]
+
+    bool
+    is_plane() const
+    {
+      return !shape;
+    }
+
+    /** A part of the core. */
+    Simplex
+    simplex(const SurfacePart &part) const;
+
+    /** Between a part of the surface and the whole tool; less than zero within a plane, zero where
+     * the other cores are crossed or contain it [m]. @param least what is of no interest beyond */
+    double
+    gap(const Simplex &simplex, double least = std::numeric_limits<double>::max()) const;
+
+    /** A place in the frame of the tool. */
+    Arrow
+    in_frame(const Arrow &place) const
+    {
+      return pose.turned_back(place - pose.place);
+    }
+
+    Pose pose;
   };
 
 
@@ -59,14 +85,14 @@ namespace Supple
    * A rigid tool that moves and turns as prescribed.
    *
    * What the barrier keeps out, its core, is as much smaller than the tool as the barrier reaches:
-   * so it begins to act where body and tool meet.
+   * so it begins to act where body and tool meet. The core of a tool from a file is its surface.
    */
   class Tool
   {
   public:
     /**
      * @param section of the body: a tool stays in the plane of a plane body
-     * @param reach   of the barrier, but no more than half the radius [m]
+     * @param reach   of the barrier, but no more than half the radius or a quarter of a box [m]
      * @throws InputError for a tool of no size or one that leaves the plane of the body
      */
     Tool(const ToolParameters &parameters,
@@ -85,14 +111,24 @@ namespace Supple
     PlacedTool
     placed(const Pose &pose) const;
 
-    /** How far its core reaches from the reference point [m]; 0 for a plane. */
-    double
-    lever() const;
+    bool
+    is_plane() const
+    {
+      return parameters.shape == ToolParameters::Shape::plane;
+    }
 
     const ToolParameters parameters;
-    const double reach; ///< [m]
+    const double reach;  ///< [m]
+    const double offset; ///< as that of PlacedTool [m]
+
+    /** Of its core; null for a plane. */
+    std::shared_ptr<const ToolShape> shape;
 
   private:
+    /** @throws InputError for a motion that depends on a place, or that does not begin anywhere */
+    void
+    require_motion(const ParameterFile &scene) const;
+
     /** @throws InputError */
     void
     require_plane_motion(const ParameterFile &scene) const;

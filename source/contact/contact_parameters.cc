@@ -1,8 +1,9 @@
-#include <supple/forces/contact_parameters.h>
+#include <supple/contact/contact_parameters.h>
 
 #include <supple/base/error.h>
 #include <supple/input/entries.h>
 
+#include <filesystem>
 #include <regex>
 
 namespace Supple
@@ -51,6 +52,18 @@ namespace Supple
         Range::between(0, infinity),
         "Speed below which friction holds less than it can: what should stick creeps by a part of "
         "it.");
+    add_choice(prm,
+               "Bodies",
+               bodies,
+               {{"tools", Bodies::tools}, {"pieces", Bodies::pieces}, {"all", Bodies::all}},
+               "What a body meets: tools alone; the other pieces of the mesh too; or all surfaces, "
+               "its own as well, as folds do. Bodies keep a distance of less than the reach.");
+    add(prm,
+        "Friction",
+        friction,
+        "none",
+        Range::at_least(0),
+        "Coefficient of Coulomb friction between bodies.");
     prm.leave_subsection();
   }
 
@@ -62,16 +75,20 @@ namespace Supple
     add_choice(prm,
                "Shape",
                shape,
-               {{"plane", Shape::plane}, {"sphere", Shape::sphere}, {"capsule", Shape::capsule}},
-               "A plane with all that is behind it; a sphere; or a capsule, a needle with round "
-               "ends.");
+               {{"plane", Shape::plane},
+                {"sphere", Shape::sphere},
+                {"capsule", Shape::capsule},
+                {"box", Shape::box},
+                {"file", Shape::file}},
+               "A plane with all that is behind it; a sphere; a capsule, a needle with round ends; "
+               "a box; or the triangles of a file.");
     add(prm,
         "Position",
         position,
         "m",
         Range::expressions(3),
         "Where its reference point is in time: a point of the plane, the center of the sphere, the "
-        "center of the capsule's round tip. In a static problem t is the load factor, from 0 to "
+        "center of the capsule's round tip, the center of the box, the origin of the file. In a static problem t is the load factor, from 0 to "
         "1.");
     add(prm,
         "Rotation",
@@ -99,6 +116,25 @@ namespace Supple
         Range::between(0, infinity),
         "Radius of the sphere or the capsule.");
     add(prm,
+        "Size",
+        size,
+        "m",
+        RangeList::three(Range::between(0, infinity)),
+        "Lengths of the edges of the box, before the rotation.");
+    add(prm,
+        "File",
+        file,
+        "none",
+        dealii::Patterns::Anything(),
+        "Surface of the tool (.stl, .obj, .ply), relative to the folder of the scene. The body "
+        "feels it from as far as the barrier reaches.");
+    add(prm,
+        "Scale",
+        scale,
+        "m per unit of the file",
+        Range::between(0, infinity),
+        "All coordinates of the file times this.");
+    add(prm,
         "Friction",
         friction,
         "none",
@@ -124,6 +160,17 @@ namespace Supple
     if (shape == Shape::capsule && axis.norm() == 0.)
       throw InputError(scene.origin(section() + "/Axis") +
                        ": a capsule of no length is a sphere: take Shape = sphere.");
+    if (shape == Shape::file && file.empty())
+      throw InputError(scene.origin(section() + "/File") +
+                       ": Shape = file needs a surface of triangles: .stl, .obj or .ply.");
+  }
+
+
+  TriangleMesh
+  ToolParameters::read(const ParameterFile &scene) const
+  {
+    return read_triangles((std::filesystem::path(scene.folder()) / file).string(),
+                          scene.origin(section() + "/File"));
   }
 
 

@@ -1,6 +1,7 @@
 #ifndef supple_contact_parameters_h
 #define supple_contact_parameters_h
 
+#include <supple/contact/tool_file.h>
 #include <supple/input/parameter_file.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -19,6 +20,21 @@ namespace Supple
     double guard           = 0.1;
     double slip_resolution = 1e-3; ///< below this speed friction sticks [m/s]
 
+    enum class Bodies
+    {
+      tools,  ///< bodies meet tools alone
+      pieces, ///< and each other
+      all     ///< and themselves
+    };
+    Bodies bodies   = Bodies::tools;
+    double friction = 0.; ///< between bodies, coefficient of Coulomb's law
+
+    bool
+    between_bodies() const
+    {
+      return bodies != Bodies::tools;
+    }
+
     void
     declare(dealii::ParameterHandler &prm);
   };
@@ -31,7 +47,9 @@ namespace Supple
     {
       plane,
       sphere,
-      capsule
+      capsule,
+      box,
+      file
     };
 
     std::string name;
@@ -41,6 +59,9 @@ namespace Supple
     dealii::Tensor<1, 3> normal{{0., 0., 1.}}; ///< of a plane, toward the body
     dealii::Tensor<1, 3> axis{{0., 0., 0.1}};  ///< of a capsule, from its tip on [m]
     double radius   = 0.01;                    ///< [m]
+    dealii::Tensor<1, 3> size{{0.1, 0.1, 0.1}}; ///< of a box [m]
+    std::string file;                          ///< of its surface
+    double scale    = 1.;                      ///< of the file [m]
     double friction = 0.;                      ///< coefficient of Coulomb's law
 
     void
@@ -53,6 +74,10 @@ namespace Supple
     /** @throws InputError for a tool of no size */
     void
     check(const ParameterFile &scene) const;
+
+    /** The surface in its file. @throws InputError */
+    TriangleMesh
+    read(const ParameterFile &scene) const;
   };
 
 

@@ -1,0 +1,29 @@
+#ifndef supple_tool_surface_h
+#define supple_tool_surface_h
+
+#include <supple/contact/tool.h>
+#include <supple/mechanics/body.h>
+
+#include <string>
+#include <vector>
+
+namespace Supple
+{
+  /** How much of a plane is drawn: the edge of a square [m]. */
+  double
+  extent_of_planes(const Body &body);
+
+
+  /** The surface of a tool for pictures, in the tool's frame [m]. Round ones are polyhedra, and of a
+   * plane it is a square about its reference point. @param extent edge of that square [m] */
+  TriangleMesh
+  drawn_surface(const Tool &tool, double extent);
+
+
+  /** All tools at an instant as a file of VTK's polygons, with their numbers.
+   * @param extent as of drawn_surface() */
+  std::string
+  draw_tools(const std::vector<Tool> &tools, const std::vector<Pose> &poses, double extent);
+} // namespace Supple
+
+#endif

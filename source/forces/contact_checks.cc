@@ -1,0 +1,206 @@
+// What must be so at the start of a run and of each step for contact to have a solution.
+
+#include <supple/base/error.h>
+#include <supple/base/text.h>
+#include <supple/forces/contact.h>
+#include <supple/mechanics/selection.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace Supple
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned int none = numbers::invalid_unsigned_int;
+
+
+    double
+    longest_edge(const Simplex &simplex)
+    {
+      double longest = 0.;
+      for (unsigned int v = 0; v < simplex.n; ++v)
+        longest = std::max(longest, (simplex.x[(v + 1) % simplex.n] - simplex.x[v]).norm());
+      return longest;
+    }
+
+
+    double
+    six_volumes(const Arrow &a, const Arrow &b, const Arrow &c, const Arrow &d)
+    {
+      return cross_product_3d(b - a, c - a) * (d - a);
+    }
+  } // namespace
+
+
+  void
+  Contact::require_room(const Passage &passage, const Constraints &constraints) const
+  {
+    if (constraints.n_held == 0)
+      return;
+    Vector goal;
+    body.initialize(goal);
+    if (constraints.move())
+      constraints.set_displacement(goal, passage.to);
+    const GhostValues places(goal);
+    for (const Tool &tool : tools)
+      {
+        const PlacedTool placed = tool.placed(tool.pose(passage.to));
+        unsigned int vertex     = none;
+        const auto look = [&](const SurfacePart &part) {
+          bool held = true;
+          for (unsigned int v = 0; v < part.n; ++v)
+            held = held && constraints.holds_node(part.nodes[v]);
+          if (held && placed.gap(surface.simplex(part, places.data()), tool.reach) <= 0.)
+            vertex = std::min(vertex, body.serial_vertex[part.nodes[0]]);
+        };
+        std::for_each(surface.vertices.begin(), surface.vertices.end(), look);
+        std::for_each(surface.faces().begin(), surface.faces().end(), look);
+        vertex = Utilities::MPI::min(vertex, body.mesh.communicator);
+        if (vertex != none)
+          throw ComputationError("the tool " + tool.parameters.name + " would reach " +
+                                 Selection(body).vertex_in_words(vertex) +
+                                 ", which is held or moved as prescribed: both can't be");
+      }
+  }
+
+
+  Contact::Nearest
+  Contact::nearest(const double *const u, const PlacedTool &tool) const
+  {
+    const MPI_Comm communicator = body.mesh.communicator;
+    Nearest here{std::numeric_limits<double>::max(), 0., none};
+    for (const SurfacePart &part : tool.is_plane() ? surface.vertices : surface.faces())
+      {
+        const Simplex simplex = surface.simplex(part, u);
+        const double gap      = tool.gap(simplex, here.gap);
+        if (gap < here.gap)
+          here = {gap, longest_edge(simplex), body.serial_vertex[part.nodes[0]]};
+      }
+    Nearest all{Utilities::MPI::min(here.gap, communicator), 0., 0};
+    const bool is_here = here.gap == all.gap;
+    all.edge           = Utilities::MPI::max(is_here ? here.edge : 0., communicator);
+    all.vertex         = Utilities::MPI::min(is_here ? here.vertex : none, communicator);
+    return all;
+  }
+
+
+  bool
+  Contact::body_contains(const double *const u, const Arrow &place) const
+  {
+    const auto corner = [&](const unsigned int node) {
+      return Arrow(body.position(node)) + Arrow({u[3 * node], u[3 * node + 1], u[3 * node + 2]});
+    };
+    for (const auto &nodes : body.cell_nodes)
+      {
+        std::array<Arrow, 4> x;
+        for (unsigned int v = 0; v < 4; ++v)
+          x[v] = corner(nodes[v]);
+        Arrow inside = place;
+        if (body.mesh.section.plane()) // a corner stands twice: triangles reach along z
+          {
+            x[3] = (x[0] + x[1] + x[2]) / 3. + Arrow({0., 0., 1.});
+            for (unsigned int v = 0; v < 3; ++v)
+              x[v][2] = 0.;
+            inside[2] = 1e-9;
+          }
+        const double volume = six_volumes(x[0], x[1], x[2], x[3]);
+        bool within         = volume != 0.;
+        for (unsigned int v = 0; v < 4 && within; ++v)
+          {
+            std::array<Arrow, 4> part = x;
+            part[v]                   = inside;
+            within = six_volumes(part[0], part[1], part[2], part[3]) / volume > 0.;
+          }
+        if (within)
+          return true;
+      }
+    return false;
+  }
+
+
+  void
+  Contact::require_clear(const Configuration &configuration, const ParameterFile &scene) const
+  {
+    constexpr std::size_t most_points = 16; // of a tool; what crosses the surface is found anyway
+
+    const GhostValues u(configuration.displacement());
+    for (const Tool &tool : tools)
+      {
+        const PlacedTool placed = tool.placed(tool.pose(configuration.passage));
+        const Nearest place     = nearest(u.data(), placed);
+        const std::string words = scene.origin(tool.parameters.section() + "/Position") +
+                                  ": at the start the tool " + tool.parameters.name + " is ";
+        if (place.gap <= 0.)
+          throw InputError(words + digits(placed.reach - place.gap, 3) +
+                           " m deep in the body, at " +
+                           Selection(body).vertex_in_words(place.vertex) +
+                           ". It must be outside; it may touch the surface.");
+        unsigned int within     = 0;
+        const std::size_t every = placed.points.size() / most_points + 1;
+        for (std::size_t k = 0; !placed.is_plane() && k < placed.points.size(); k += every)
+          within = std::max<unsigned int>(within, body_contains(u.data(), placed.points[k]));
+        if (Utilities::MPI::max(within, body.mesh.communicator) > 0)
+          throw InputError(words + "wholly within the body, near " +
+                           Selection(body).vertex_in_words(place.vertex) +
+                           ". It must be outside; it may touch the surface.");
+      }
+    require_no_crossing(u.data(), scene);
+  }
+
+
+  void
+  Contact::require_no_crossing(const double *const u, const ParameterFile &scene) const
+  {
+    const Candidates near = search.own(u, 0.);
+    for (const auto &[one, other] : near.face_face)
+      {
+        const SurfacePart &face = surface.faces()[one], &other_face = surface.faces()[other];
+        if (distance(surface.simplex(face, u), surface.simplex(other_face, u)) > 0.)
+          continue;
+        const Selection selection(body);
+        throw InputError(scene.origin("Contact/Bodies") +
+                         ": at the start the surface meets itself at " +
+                         selection.vertex_in_words(body.serial_vertex[face.nodes[0]]) + " and " +
+                         selection.vertex_in_words(body.serial_vertex[other_face.nodes[0]]) +
+                         ". Bodies must be apart, by " + digits(reach, 3) +
+                         " m (Contact/Reach) if they are not to push each other at once.");
+      }
+  }
+
+
+  std::vector<std::string>
+  Contact::warnings_of_start(const Configuration &configuration) const
+  {
+    const GhostValues u(configuration.displacement());
+    std::vector<std::string> warnings;
+    for (const Tool &tool : tools)
+      {
+        const PlacedTool placed = tool.placed(tool.pose(configuration.passage));
+        const Nearest place     = nearest(u.data(), placed);
+        const double radius     = tool.parameters.radius;
+        const bool is_round     = tool.parameters.shape == ToolParameters::Shape::sphere ||
+                              tool.parameters.shape == ToolParameters::Shape::capsule;
+        if (is_round && radius < place.edge)
+          warnings.push_back(
+            "The tool " + tool.parameters.name + ", with a radius of " + digits(radius, 3) +
+            " m, is thinner than the cells that it is next to, with edges of " +
+            digits(place.edge, 3) + " m: its force depends on the mesh. Edges of less than " +
+            digits(radius, 3) + " m would do.");
+        if (place.gap < placed.reach * (1. - 1e-6))
+          warnings.push_back("At the start the tool " + tool.parameters.name + " is " +
+                             digits(placed.reach - place.gap, 3) +
+                             " m deep in the body, and pushes it away.");
+      }
+    if (const std::optional<double> gap = own_gap(configuration);
+        gap.value_or(reach) < reach * (1. - 1e-6))
+      warnings.push_back("At the start bodies are " + digits(*gap, 3) +
+                         " m apart, less than the reach of the barrier of " + digits(reach, 3) +
+                         " m, and push each other away.");
+    return warnings;
+  }
+} // namespace Supple
