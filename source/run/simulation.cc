@@ -199,7 +199,7 @@ namespace Supple
     listeners.add(results.add<ProfileTables>(
       history && !profiles.empty(), effort, profiles, parameters.probes.profile_every));
     listeners.add(
-      results.add<HistoryTable>(history, effort, !parameters.tools.empty(), space_of_frames));
+      results.add<HistoryTable>(history, effort, parameters.has_contact(), space_of_frames));
     listeners.add(
       results.add<ToolTables>(history && !parameters.tools.empty(), effort, parameters.tools));
     listeners.add(results.add<ProbeTable>(history && !probes.empty(), effort, probes));

@@ -31,7 +31,7 @@ namespace Supple
   std::set<std::string>
   StudyRecord::column_names(const Parameters &parameters)
   {
-    const auto names = Measurement::column_names(!parameters.tools.empty());
+    const auto names = Measurement::column_names(parameters.has_contact());
     std::set<std::string> all(names.begin(), names.end());
     const ProbeParameters &probes = parameters.probes;
     for (const auto &[entry, list] : {std::make_pair("Probes/Points", probes.points),
