@@ -1,6 +1,7 @@
 #include <supple/contact/candidates.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace Supple
 {
@@ -50,6 +51,26 @@ namespace Supple
     }
 
 
+    /** No more than between the two [m]: by spheres around them, in a small part of the time. */
+    double
+    lower_bound(const Simplex &one, const Simplex &other)
+    {
+      const auto center = [](const Simplex &simplex) {
+        Arrow center;
+        for (unsigned int v = 0; v < simplex.n; ++v)
+          center += simplex.x[v] / simplex.n;
+        return center;
+      };
+      const Arrow here = center(one), there = center(other);
+      double radius = 0., other_radius = 0.;
+      for (unsigned int v = 0; v < one.n; ++v)
+        radius = std::max(radius, (one.x[v] - here).norm_square());
+      for (unsigned int v = 0; v < other.n; ++v)
+        other_radius = std::max(other_radius, (other.x[v] - there).norm_square());
+      return (here - there).norm() - std::sqrt(radius) - std::sqrt(other_radius);
+    }
+
+
     /** Whether two parts may come nearer than a distance: exact where nothing moves. */
     bool
     may_meet(const MovedSimplex &one, const MovedSimplex &other, const double distance)
@@ -57,7 +78,9 @@ namespace Supple
       Box box = one.box();
       box.grow(distance);
       return box.overlaps(other.box()) &&
-             (one.moves || other.moves || Supple::distance(one.start, other.start) < distance);
+             (one.moves || other.moves ||
+              (lower_bound(one.start, other.start) < distance &&
+               Supple::distance(one.start, other.start) < distance));
     }
 
 
@@ -282,6 +305,33 @@ namespace Supple
                 const double distance)
   {
     return ToolFinder(surface, motion, tool, way, distance).find();
+  }
+
+
+  Candidates
+  near_ones(const Candidates &candidates,
+            const ContactSurface &surface,
+            const double *const u,
+            const double distance)
+  {
+    const auto filter = [&](const std::vector<Candidate> &list,
+                            const std::vector<SurfacePart> &ones,
+                            const std::vector<SurfacePart> &others) {
+      std::vector<Candidate> near;
+      for (const Candidate &candidate : list)
+        {
+          const Simplex one   = surface.simplex(ones[candidate.one], u);
+          const Simplex other = surface.simplex(others[candidate.other], u);
+          if (may_meet({one, one, false}, {other, other, false}, distance))
+            near.push_back(candidate);
+        }
+      return near;
+    };
+    const std::vector<SurfacePart> &faces = surface.faces();
+    return {filter(candidates.vertex_face, surface.vertices, faces),
+            {},
+            filter(candidates.edge_edge, surface.edges, surface.edges),
+            filter(candidates.face_face, faces, faces)};
   }
 
 

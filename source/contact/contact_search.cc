@@ -16,136 +16,214 @@ namespace Supple
     , reach(reach)
     , bodies(bodies)
     , margin(std::max(2. * reach, 0.1 * surface.mean_edge()))
-    , places(tools.size() + 1)
-    , poses(tools.size())
+    , searched_of_tools(tools.size())
   {
     lists.of_tools.resize(tools.size());
-    lists_of_way.of_tools.resize(tools.size());
   }
 
 
   namespace
   {
-    Arrow
-    at(const double *const values, const unsigned int node)
-    {
-      return Arrow({values[3 * node], values[3 * node + 1], values[3 * node + 2]});
-    }
-
-
+    /** Those of the nodes of the surface, of values at all local nodes. */
     void
-    keep_places(std::vector<Arrow> &places, const ContactSurface &surface, const double *const u)
+    take(std::vector<Arrow> &list, const ContactSurface &surface, const double *const values)
     {
-      places.clear();
+      list.clear();
       for (const unsigned int node : surface.nodes)
-        places.push_back(at(u, node));
-    }
-
-
-    /** Displacement since the places were kept, and on a way from there on [m]. */
-    Arrow
-    gone(const Arrow &place,
-         const double *const u,
-         const double *const way,
-         const unsigned int node)
-    {
-      return at(u, node) - place + (way ? at(way, node) : Arrow());
+        list.push_back(Arrow({values[3 * node], values[3 * node + 1], values[3 * node + 2]}));
     }
   } // namespace
 
 
   double
-  ContactSearch::change(const unsigned int tool,
-                        const double *const u,
-                        const double *const way,
+  ContactSearch::nearest_part(const Searched &searched,
+                              const std::vector<Arrow> &u,
+                              const Pose *const pose) const
+  {
+    double along = 0., square = 0.;
+    for (std::size_t k = 0; k < searched.way.size(); ++k)
+      {
+        along += searched.way[k] * (u[k] - searched.start[k]);
+        square += searched.way[k].norm_square();
+      }
+    if (!(square > 0.) && pose)
+      {
+        const auto &[from, to] = searched.tool;
+        along = (to.place - from.place) * (pose->place - from.place) +
+                (to.turn - from.turn) * (pose->turn - from.turn);
+        square = (to.place - from.place).norm_square() + (to.turn - from.turn).norm_square();
+      }
+    return square > 0. ? std::clamp(along / square, 0., 1.) : 0.;
+  }
+
+
+  bool
+  ContactSearch::covers(const Searched &searched,
+                        const std::vector<Arrow> &u,
+                        const Tool *const tool,
                         const Pose &pose) const
   {
-    if (places[tool].size() != surface.nodes.size())
-      return std::numeric_limits<double>::max();
-    const Arrow shift = pose.place - poses[tool].place;
-    const double turn = (pose.turn - poses[tool].turn).norm();
-    const Tool &which = tools[tool];
-    double largest    = 0.;
-    for (std::size_t k = 0; k < surface.nodes.size(); ++k)
+    if (searched.start.size() != u.size() || u.empty())
+      return u.empty();
+    const double part = nearest_part(searched, u, tool ? &pose : nullptr);
+    const auto off    = [&](const std::size_t k) {
+      return searched.way.empty() ? u[k] - searched.start[k] :
+                                       u[k] - searched.start[k] - part * searched.way[k];
+    };
+    if (!tool) // either part may be off by this, as seen from the mean
       {
-        const unsigned int node = surface.nodes[k];
-        double moved            = (gone(places[tool][k], u, way, node) - shift).norm();
-        if (which.is_plane() && turn > 0.)
-          moved += turn * (Arrow(surface.body.position(node)) + at(u, node) - pose.place).norm();
-        largest = std::max(largest, moved);
+        Arrow mean;
+        for (std::size_t k = 0; k < u.size(); ++k)
+          mean += off(k) / double(u.size());
+        double square = 0.;
+        for (std::size_t k = 0; k < u.size(); ++k)
+          square = std::max(square, (off(k) - mean).norm_square());
+        return 2. * std::sqrt(square) <= searched.margin;
       }
-    return which.is_plane() ? largest : largest + turn * which.shape->lever;
+    const Pose there  = between(searched.tool.from, searched.tool.to, part);
+    const Arrow shift = pose.place - there.place;
+    const double turn = (pose.turn - there.turn).norm();
+    double largest    = 0.;
+    for (std::size_t k = 0; k < u.size(); ++k)
+      {
+        const double moved = (off(k) - shift).norm();
+        const double lever =
+          turn == 0. ?
+               0. :
+               (tool->is_plane() ?
+                  (Arrow(surface.body.position(surface.nodes[k])) + u[k] - pose.place).norm() :
+                  tool->shape->lever);
+        largest = std::max(largest, moved + turn * lever);
+      }
+    return largest <= searched.margin;
   }
 
 
-  /** Of two parts, each may have moved by this much as seen from the mean motion. */
   double
-  ContactSearch::own_change(const double *const u, const double *const way) const
+  ContactSearch::least_distance(const Tool &tool, const Searched &searched) const
   {
-    const std::vector<Arrow> &before = places.back();
-    if (before.size() != surface.nodes.size())
-      return std::numeric_limits<double>::max();
-    Arrow mean;
-    for (std::size_t k = 0; k < before.size(); ++k)
-      mean += gone(before[k], u, way, surface.nodes[k]);
-    mean /= std::max<std::size_t>(1, before.size());
-    double square = 0.;
-    for (std::size_t k = 0; k < before.size(); ++k)
-      square =
-        std::max(square, (gone(before[k], u, way, surface.nodes[k]) - mean).norm_square());
-    return 2. * std::sqrt(square);
+    const auto &[from, to] = searched.tool;
+    const double turn      = (to.turn - from.turn).norm();
+    Box box;
+    double lowest = std::numeric_limits<double>::max(), farthest = 0.;
+    for (std::size_t k = 0; k < searched.start.size(); ++k)
+      {
+        const Arrow place = Arrow(surface.body.position(surface.nodes[k])) + searched.start[k];
+        const Arrow way   = searched.way.empty() ? Arrow() : searched.way[k];
+        for (const Arrow &there : {place - from.place, place + way - to.place})
+          {
+            const Arrow in_frame = from.turned_back(there);
+            box.take(in_frame);
+            farthest = std::max(farthest, there.norm());
+            if (tool.is_plane())
+              lowest = std::min(lowest, tool.parameters.normal * in_frame);
+          }
+      }
+    const double nearest = tool.is_plane() ? lowest / tool.parameters.normal.norm() :
+                                             box.distance(tool.shape->bounds);
+    return nearest - turn * farthest - tool.offset - tool.reach;
   }
 
 
-  Candidates
-  ContactSearch::own(const double *const u, const double margin) const
+  void
+  ContactSearch::search_tool(const unsigned int t,
+                             const SurfaceMotion &motion,
+                             const ToolMotion &way)
   {
-    if (bodies == Bodies::tools)
-      return {};
-    return own_candidates(surface, {u}, bodies == Bodies::pieces, reach + margin);
+    Searched &searched = searched_of_tools[t];
+    keep(searched, motion);
+    searched.tool        = way;
+    const double nothing = least_distance(tools[t], searched);
+    if (nothing > margin)
+      {
+        lists.of_tools[t] = {};
+        searched.margin   = nothing;
+        return;
+      }
+    lists.of_tools[t] = candidates_of(surface, motion, tools[t], way, tools[t].reach + margin);
+  }
+
+
+  void
+  ContactSearch::keep(Searched &searched, const SurfaceMotion &motion) const
+  {
+    take(searched.start, surface, motion.u);
+    searched.way.clear();
+    if (motion.way)
+      take(searched.way, surface, motion.way);
+    searched.margin = margin;
+  }
+
+
+  void
+  ContactSearch::search_own_state(const double *const u)
+  {
+    own_of_state = covers(searched_own_way, start, nullptr, {}) ?
+                     near_ones(own_of_way, surface, u, reach + margin) :
+                     own_candidates(surface, {u}, bodies == Bodies::pieces, reach + margin);
+    keep(searched_own_state, {u});
+  }
+
+
+  void
+  ContactSearch::search_own_way(const SurfaceMotion &motion)
+  {
+    // what is near a state that is near the way must be among them
+    own_of_way = own_candidates(surface, motion, bodies == Bodies::pieces, reach + 2. * margin);
+    keep(searched_own_way, motion);
   }
 
 
   const AllCandidates &
-  ContactSearch::near(const double *const u, const std::vector<Pose> &now)
+  ContactSearch::find(const SurfaceMotion &motion, const std::vector<ToolMotion> &ways)
   {
-    for (unsigned int t = 0; t < tools.size(); ++t)
-      if (change(t, u, nullptr, now[t]) > margin)
-        {
-          lists.of_tools[t] =
-            candidates_of(surface, {u}, tools[t], {now[t], now[t]}, tools[t].reach + margin);
-          keep_places(places[t], surface, u);
-          poses[t] = now[t];
-        }
-    if (bodies != Bodies::tools && own_change(u, nullptr) > margin)
+    take(start, surface, motion.u);
+    end = start;
+    if (motion.way)
       {
-        lists.own = own(u, margin);
-        keep_places(places.back(), surface, u);
+        take(end, surface, motion.way);
+        for (std::size_t k = 0; k < end.size(); ++k)
+          end[k] += start[k];
       }
+    for (unsigned int t = 0; t < tools.size(); ++t)
+      if (!covers(searched_of_tools[t], start, &tools[t], ways[t].from) ||
+          !covers(searched_of_tools[t], end, &tools[t], ways[t].to))
+        search_tool(t, motion, ways[t]);
+    lists.own = &own_of_state;
+    if (bodies == Bodies::tools)
+      return lists;
+    const auto cover = [&](const Searched &searched) {
+      return covers(searched, start, nullptr, {}) && covers(searched, end, nullptr, {});
+    };
+    if (cover(searched_own_state))
+      return lists;
+    if (!motion.way)
+      {
+        search_own_state(motion.u);
+        return lists;
+      }
+    if (!cover(searched_own_way))
+      search_own_way(motion);
+    lists.own = &own_of_way;
     return lists;
   }
 
 
   const AllCandidates &
-  ContactSearch::on_way(const double *const u,
-                        const double *const way,
-                        const std::vector<ToolMotion> &motions)
+  ContactSearch::find(const double *const u, const std::vector<Pose> &poses)
   {
-    for (unsigned int t = 0; t < tools.size(); ++t)
-      {
-        const bool known = change(t, u, way, motions[t].to) <= margin &&
-                           change(t, u, nullptr, motions[t].from) <= margin;
-        lists_of_way.of_tools[t] =
-          known ? lists.of_tools[t]
-                : candidates_of(surface, {u, way}, tools[t], motions[t], tools[t].reach);
-      }
-    if (bodies != Bodies::tools)
-      {
-        const bool known = own_change(u, way) <= margin && own_change(u, nullptr) <= margin;
-        lists_of_way.own =
-          known ? lists.own
-                : own_candidates(surface, {u, way}, bodies == Bodies::pieces, reach);
-      }
-    return lists_of_way;
+    std::vector<ToolMotion> ways;
+    for (const Pose &pose : poses)
+      ways.push_back({pose, pose});
+    return find({u}, ways);
+  }
+
+
+  Candidates
+  ContactSearch::own(const double *const u) const
+  {
+    if (bodies == Bodies::tools)
+      return {};
+    return own_candidates(surface, {u}, bodies == Bodies::pieces, reach);
   }
 } // namespace Supple

@@ -137,12 +137,12 @@ namespace Supple
   Contact::pairs(const double *const u, const Passage &passage) const
   {
     const std::vector<Pose> now = poses(passage);
-    const AllCandidates &near   = search.near(u, now);
+    const AllCandidates &near   = search.find(u, now);
     std::vector<ContactPair> pairs;
     for (unsigned int t = 0; t < tools.size(); ++t)
       if (!near.of_tools[t].empty())
         finder.add(pairs, u, tools[t].placed(now[t]), t, near.of_tools[t]);
-    finder.add_own(pairs, u, near.own);
+    finder.add_own(pairs, u, *near.own);
     return pairs;
   }
 
@@ -340,7 +340,7 @@ namespace Supple
     sort_once(needed);
     if (std::includes(coupled.begin(), coupled.end(), needed.begin(), needed.end()))
       return;
-    const Candidates &near = search.near(u, poses(passage)).own;
+    const Candidates &near = *search.find(u, poses(passage)).own;
     coupled                = needed; // of friction, what touched at the start
     for (const Candidate &pair : near.vertex_face)
       couple(coupled, surface.vertices[pair.one], surface.faces()[pair.other]);
@@ -477,7 +477,7 @@ namespace Supple
     std::vector<ToolMotion> motions;
     for (const Tool &tool : tools)
       motions.push_back({tool.pose(passage), tool.pose(Passage{passage.from, passage.to, part})});
-    const AllCandidates &candidates = search.on_way(u.data(), du.data(), motions);
+    const AllCandidates &candidates = search.find({u.data(), du.data()}, motions);
     const auto way_of               = [&](const SurfacePart &piece) {
       Corners way;
       for (unsigned int v = 0; v < piece.n; ++v)
@@ -512,9 +512,9 @@ namespace Supple
                                         surface.simplex(other, u.data()),
                                         way_of(other)));
     };
-    for (const auto &[one, other] : candidates.own.vertex_face)
+    for (const auto &[one, other] : candidates.own->vertex_face)
       go(surface.vertices[one], surface.faces()[other]);
-    for (const auto &[one, other] : candidates.own.edge_edge)
+    for (const auto &[one, other] : candidates.own->edge_edge)
       go(surface.edges[one], surface.edges[other]);
     return Utilities::MPI::min(safe, body.mesh.communicator);
   }

@@ -156,7 +156,7 @@ namespace Supple
   void
   Contact::require_no_crossing(const double *const u, const ParameterFile &scene) const
   {
-    const Candidates near = search.own(u, 0.);
+    const Candidates near = search.own(u);
     for (const auto &[one, other] : near.face_face)
       {
         const SurfacePart &face = surface.faces()[one], &other_face = surface.faces()[other];

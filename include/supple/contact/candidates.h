@@ -66,6 +66,14 @@ namespace Supple
                  const SurfaceMotion &motion,
                  bool only_other_pieces,
                  double distance);
+
+
+  /** Those of own_candidates() that are nearer than a distance [m] where the surface is. */
+  Candidates
+  near_ones(const Candidates &candidates,
+            const ContactSurface &surface,
+            const double *u,
+            double distance);
 } // namespace Supple
 
 #endif

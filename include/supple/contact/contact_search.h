@@ -9,13 +9,13 @@ namespace Supple
   struct AllCandidates
   {
     std::vector<Candidates> of_tools;
-    Candidates own;
+    const Candidates *own;
   };
 
 
   /**
-   * Finds what may touch. The candidates of a state serve for others too, until something has moved
-   * by more than a margin: most states of a slow motion need no search.
+   * Finds what may touch. What was found for a way serves for all states and ways that are not
+   * farther from it than a margin: most iterations, and steps of a slow motion, need no search.
    */
   class ContactSearch
   {
@@ -30,28 +30,58 @@ namespace Supple
                   double reach,
                   ContactParameters::Bodies bodies);
 
-    /** All that is within the reach of the barriers. Valid until called again.
-     * @param u displacement of all local nodes [m] */
+    /** All whose gaps fall below the reach of their barrier somewhere on a way; others are among
+     * them. Valid until called again. */
     const AllCandidates &
-    near(const double *u, const std::vector<Pose> &poses);
+    find(const SurfaceMotion &motion, const std::vector<ToolMotion> &tools);
 
-    /** All whose gaps fall below the reach somewhere on a way. Valid until something is called
-     * again. @param way of all local nodes [m] */
+    /** The same of a state. */
     const AllCandidates &
-    on_way(const double *u, const double *way, const std::vector<ToolMotion> &tools);
+    find(const double *u, const std::vector<Pose> &poses);
 
-    /** All faces whose distance may be less than a margin beside the reach. */
+    /** All of the surface with itself that are nearer than the reach. */
     Candidates
-    own(const double *u, double margin) const;
+    own(const double *u) const;
 
   private:
-    /** How much distances to a tool may have changed since its search [m].
-     * @param way of all local nodes [m]; null: none */
-    double
-    change(unsigned int tool, const double *u, const double *way, const Pose &pose) const;
+    /** A way that was searched. */
+    struct Searched
+    {
+      std::vector<Arrow> start; ///< displacements of the nodes of the surface [m]
+      std::vector<Arrow> way;   ///< of these nodes [m]; none: they stay
+      ToolMotion tool;          ///< none of the surface with itself
+      double margin = 0.;       ///< [m]
+    };
 
+    /** Which part of a searched way is nearest to a state. */
     double
-    own_change(const double *u, const double *way) const;
+    nearest_part(const Searched &searched, const std::vector<Arrow> &u, const Pose *pose) const;
+
+    /** Whether a state is no farther from the searched way than its margin.
+     * @param tool null for the surface with itself */
+    bool
+    covers(const Searched &searched,
+           const std::vector<Arrow> &u,
+           const Tool *tool,
+           const Pose &pose) const;
+
+    void
+    search_tool(unsigned int tool, const SurfaceMotion &motion, const ToolMotion &way);
+
+    /** Of a state, among what was found for a way if that covers it. */
+    void
+    search_own_state(const double *u);
+
+    void
+    search_own_way(const SurfaceMotion &motion);
+
+    /** Remembers what is searched. */
+    void
+    keep(Searched &searched, const SurfaceMotion &motion) const;
+
+    /** Less than between the tool and the body on a whole way [m]. */
+    double
+    least_distance(const Tool &tool, const Searched &searched) const;
 
     const ContactSurface &surface;
     const std::vector<Tool> &tools;
@@ -59,11 +89,13 @@ namespace Supple
     const ContactParameters::Bodies bodies;
     const double margin; ///< [m]
 
-    AllCandidates lists, lists_of_way;
+    AllCandidates lists;
+    std::vector<Searched> searched_of_tools;
 
-    /** Where all was when they were found; of each tool, and last of the surface alone. */
-    std::vector<std::vector<Arrow>> places; ///< displacements of the nodes of the surface [m]
-    std::vector<Pose> poses;
+    /** Of a way there are many more of the surface with itself than of a state. */
+    Candidates own_of_state, own_of_way;
+    Searched searched_own_state, searched_own_way;
+    std::vector<Arrow> start, end; ///< at hand [m]
   };
 } // namespace Supple
 
