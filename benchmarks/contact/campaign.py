@@ -146,11 +146,11 @@ def main():
         folder = pathlib.Path(tempfile.mkdtemp(prefix=f"supple-{number}-"))
         status, message, gap, iterations, missing = result(arguments.program, folder, scene_of(*kind(random.Random(number))))
         refused = status == 1 and ("at the start" in message)
-        table[kind.__name__]["done" if status == 0 else "failed with words" if status == 2 else "refused" if refused else "WRONG"] += 1
-        if not (status in (0, 2) or refused) or gap <= 0:
+        table[kind.__name__]["too slow" if status is None else "done" if status == 0 else "failed with words" if status == 2 else "refused" if refused else "WRONG"] += 1
+        if not (status in (None, 0, 2) or refused) or gap <= 0:
             bad += 1
             print(f"run {number}, {kind.__name__}: status {status}, least gap {gap}: {message}", flush=True)
-        elif status == 2:
+        elif status != 0 and not refused:
             print(f"run {number}, {kind.__name__}: {message}", flush=True)
         of_kind = worst[kind.__name__]
         if status in (0, 2):

@@ -77,10 +77,9 @@ namespace Supple
     {
       Box box = one.box();
       box.grow(distance);
-      return box.overlaps(other.box()) &&
-             (one.moves || other.moves ||
-              (lower_bound(one.start, other.start) < distance &&
-               Supple::distance(one.start, other.start) < distance));
+      return box.overlaps(other.box()) && (one.moves || other.moves ||
+                                           (lower_bound(one.start, other.start) < distance &&
+                                            Supple::distance(one.start, other.start) < distance));
     }
 
 
@@ -155,8 +154,8 @@ namespace Supple
       void
       add_to_core(const unsigned int f, const MovedSimplex &face)
       {
-        Box box            = face.box();
-        const double near  = distance + reach_of_turn(face);
+        Box box           = face.box();
+        const double near = distance + reach_of_turn(face);
         box.grow(near);
         if (!box.overlaps(tool.shape->bounds))
           return;
@@ -176,7 +175,10 @@ namespace Supple
               add(candidates.face_vertex, {f, vertex}, surface.faces()[f], core.vertices[vertex]);
             for (const unsigned int edge : surface.represented_edges[f])
               for (const unsigned int of_core : core.represented_edges[other])
-                add(candidates.edge_edge, {edge, of_core}, surface.edges[edge], core.edges[of_core]);
+                add(candidates.edge_edge,
+                    {edge, of_core},
+                    surface.edges[edge],
+                    core.edges[of_core]);
           }
       }
 

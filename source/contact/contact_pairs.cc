@@ -220,7 +220,7 @@ namespace Supple
           const SurfacePart &face = faces[candidates[first].one];
           while (end < candidates.size() && candidates[end].one == candidates[first].one)
             ++end;
-          const Simplex here                  = maker.simplex(face);
+          const Simplex here                   = maker.simplex(face);
           const std::vector<RulePoint> &points = rule(face.n);
           for (const RulePoint &c : points)
             {

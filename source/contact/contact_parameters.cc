@@ -88,7 +88,8 @@ namespace Supple
         "m",
         Range::expressions(3),
         "Where its reference point is in time: a point of the plane, the center of the sphere, the "
-        "center of the capsule's round tip, the center of the box, the origin of the file. In a static problem t is the load factor, from 0 to "
+        "center of the capsule's round tip, the center of the box, the origin of the file. In a "
+        "static problem t is the load factor, from 0 to "
         "1.");
     add(prm,
         "Rotation",
@@ -97,6 +98,20 @@ namespace Supple
         Range::expressions(3),
         "How the tool is turned about its reference point in time: the axis, as long as the "
         "angle.");
+    declare_shapes(prm);
+    add(prm,
+        "Friction",
+        friction,
+        "none",
+        Range::at_least(0),
+        "Coefficient of Coulomb friction on this tool.");
+    prm.leave_subsection();
+  }
+
+
+  void
+  ToolParameters::declare_shapes(ParameterHandler &prm)
+  {
     add(prm,
         "Normal",
         normal,
@@ -134,13 +149,6 @@ namespace Supple
         "m per unit of the file",
         Range::between(0, infinity),
         "All coordinates of the file times this.");
-    add(prm,
-        "Friction",
-        friction,
-        "none",
-        Range::at_least(0),
-        "Coefficient of Coulomb friction on this tool.");
-    prm.leave_subsection();
   }
 
 

@@ -49,7 +49,7 @@ namespace Supple
     if (!(square > 0.) && pose)
       {
         const auto &[from, to] = searched.tool;
-        along = (to.place - from.place) * (pose->place - from.place) +
+        along                  = (to.place - from.place) * (pose->place - from.place) +
                 (to.turn - from.turn) * (pose->turn - from.turn);
         square = (to.place - from.place).norm_square() + (to.turn - from.turn).norm_square();
       }
@@ -67,8 +67,8 @@ namespace Supple
       return u.empty();
     const double part = nearest_part(searched, u, tool ? &pose : nullptr);
     const auto off    = [&](const std::size_t k) {
-      return searched.way.empty() ? u[k] - searched.start[k] :
-                                       u[k] - searched.start[k] - part * searched.way[k];
+      return searched.way.empty() ? u[k] - searched.start[k]
+                                     : u[k] - searched.start[k] - part * searched.way[k];
     };
     if (!tool) // either part may be off by this, as seen from the mean
       {
@@ -88,11 +88,11 @@ namespace Supple
       {
         const double moved = (off(k) - shift).norm();
         const double lever =
-          turn == 0. ?
-               0. :
-               (tool->is_plane() ?
-                  (Arrow(surface.body.position(surface.nodes[k])) + u[k] - pose.place).norm() :
-                  tool->shape->lever);
+          turn == 0.
+            ? 0.
+            : (tool->is_plane()
+                 ? (Arrow(surface.body.position(surface.nodes[k])) + u[k] - pose.place).norm()
+                 : tool->shape->lever);
         largest = std::max(largest, moved + turn * lever);
       }
     return largest <= searched.margin;
@@ -119,8 +119,8 @@ namespace Supple
               lowest = std::min(lowest, tool.parameters.normal * in_frame);
           }
       }
-    const double nearest = tool.is_plane() ? lowest / tool.parameters.normal.norm() :
-                                             box.distance(tool.shape->bounds);
+    const double nearest =
+      tool.is_plane() ? lowest / tool.parameters.normal.norm() : box.distance(tool.shape->bounds);
     return nearest - turn * farthest - tool.offset - tool.reach;
   }
 
@@ -158,9 +158,9 @@ namespace Supple
   void
   ContactSearch::search_own_state(const double *const u)
   {
-    own_of_state = covers(searched_own_way, start, nullptr, {}) ?
-                     near_ones(own_of_way, surface, u, reach + margin) :
-                     own_candidates(surface, {u}, bodies == Bodies::pieces, reach + margin);
+    own_of_state = covers(searched_own_way, start, nullptr, {})
+                     ? near_ones(own_of_way, surface, u, reach + margin)
+                     : own_candidates(surface, {u}, bodies == Bodies::pieces, reach + margin);
     keep(searched_own_state, {u});
   }
 

@@ -32,7 +32,8 @@ namespace Supple
     for (std::size_t k = 0; k < list.size(); ++k)
       {
         const auto &[pair, force] = list[k];
-        const double limit        = coefficients[std::min<std::size_t>(pair.tool, coefficients.size() - 1)] * force;
+        const double limit =
+          coefficients[std::min<std::size_t>(pair.tool, coefficients.size() - 1)] * force;
         if (limit > 0.)
           touches.push_back({pair, limit, surface_places[k]});
       }
@@ -47,7 +48,7 @@ namespace Supple
       {
         const auto &[now, other] = places(touch.pair, touch.place);
         const Arrow way          = now - touch.place - (other - touch.place);
-        const Arrow &n                    = touch.pair.normal;
+        const Arrow &n           = touch.pair.normal;
         slips.push_back(
           {&touch.pair, touch.limit, touch.place, way - (n * way) * n, slip_resolution * duration});
       }

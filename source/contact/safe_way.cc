@@ -67,9 +67,9 @@ namespace Supple
           lever = std::max(lever, tool.shape->points[of_core->nodes[v]].norm());
       else // the farther a vertex is from where the plane turns, the faster it is met
         for (unsigned int v = 0; v < x.n; ++v)
-          lever = std::max(lever,
-                           (x.x[v] - from.place).norm() + way[v].norm() +
-                             (to.place - from.place).norm());
+          lever =
+            std::max(lever,
+                     (x.x[v] - from.place).norm() + way[v].norm() + (to.place - from.place).norm());
       return longest(x.n, way, mean) + (to.place - from.place - mean).norm() + turn * lever;
     }
 
@@ -136,7 +136,9 @@ namespace Supple
   {
     const Arrow common = 0.5 * (mean_of(x.n, way) + mean_of(other.n, other_way));
     return safe_part_of(
-      [&](const double part) { return distance(moved(x, way, part), moved(other, other_way, part)); },
+      [&](const double part) {
+        return distance(moved(x, way, part), moved(other, other_way, part));
+      },
       longest(x.n, way, common) + longest(other.n, other_way, common));
   }
 } // namespace Supple

@@ -153,8 +153,9 @@ namespace Supple
       {
         const std::string origin = scene.origin(parameters.section() + entry);
         if (expression->depends_on_place())
-          throw InputError(origin + ": a tool moves as a whole, as expressions of t say; x, y and z "
-                                    "mean nothing in them.");
+          throw InputError(origin +
+                           ": a tool moves as a whole, as expressions of t say; x, y and z "
+                           "mean nothing in them.");
         const Arrow at_first = value_of(*expression, 0.);
         if (!std::isfinite(at_first.norm()))
           throw InputError(origin + ": at t = 0 it is not a finite number.");

@@ -11,7 +11,7 @@ namespace Supple
 {
   using dealii::cross_product_3d;
   namespace numbers = dealii::numbers;
-  using Shape = ToolParameters::Shape;
+  using Shape       = ToolParameters::Shape;
 
   namespace
   {

@@ -110,8 +110,9 @@ namespace Supple
                        " m is more than a tenth of the body's diameter of " +
                        digits(body.mesh.diameter(), 3) + " m, so deep would it be entered.");
     if (body.mesh.section.axisymmetric())
-      throw InputError(scene.origin("Plane/Model") + ": axisymmetric bodies do not touch anything "
-                                                     "yet (" +
+      throw InputError(scene.origin("Plane/Model") +
+                       ": axisymmetric bodies do not touch anything "
+                       "yet (" +
                        (list.empty() ? scene.origin("Contact/Bodies")
                                      : scene.place(list[0].section() + "/Shape") + ": subsection " +
                                          list[0].section()) +
@@ -216,8 +217,9 @@ namespace Supple
   Contact::note_turns(const Passage &passage)
   {
     for (unsigned int t = 0; t < tools.size(); ++t)
-      largest_turns[t] = std::max(
-        largest_turns[t], (tools[t].pose(passage.to).turn - tools[t].pose(passage.from).turn).norm());
+      largest_turns[t] =
+        std::max(largest_turns[t],
+                 (tools[t].pose(passage.to).turn - tools[t].pose(passage.from).turn).norm());
   }
 
 
@@ -313,8 +315,8 @@ namespace Supple
     {
       for (unsigned int v = 0; v < one.n; ++v)
         for (unsigned int w = 0; w < other.n; ++w)
-          couplings.push_back({{std::max(one.nodes[v], other.nodes[w]),
-                                std::min(one.nodes[v], other.nodes[w])}});
+          couplings.push_back(
+            {{std::max(one.nodes[v], other.nodes[w]), std::min(one.nodes[v], other.nodes[w])}});
     }
 
 
@@ -556,7 +558,8 @@ namespace Supple
           const unsigned int t = pair.tool;
           const Arrow way =
             now[t].place_with(last[t], pair.place) - now[t].place_with(first[t], pair.place);
-          works[t] += weight * (force_of(pair) * way + turning_work(pair, now[t], first[t], last[t]));
+          works[t] +=
+            weight * (force_of(pair) * way + turning_work(pair, now[t], first[t], last[t]));
         }
     if (!at_end)
       return;
@@ -606,8 +609,7 @@ namespace Supple
       const Simplex x = surface.simplex(*pair.part, u.data());
       for (unsigned int v = 0; pair.factor < 1. && v < pair.n; ++v)
         {
-          const Arrow couple =
-            cross_product_3d(x.x[v], -energy_of(pair) * pair.factor_gradient[v]);
+          const Arrow couple = cross_product_3d(x.x[v], -energy_of(pair) * pair.factor_gradient[v]);
           for (unsigned int i = 0; i < 3; ++i)
             sums[n * pair.tool + 3 + i] += couple[i];
         }

@@ -51,7 +51,7 @@ namespace Supple
       {
         const PlacedTool placed = tool.placed(tool.pose(passage.to));
         unsigned int vertex     = none;
-        const auto look = [&](const SurfacePart &part) {
+        const auto look         = [&](const SurfacePart &part) {
           bool held = true;
           for (unsigned int v = 0; v < part.n; ++v)
             held = held && constraints.holds_node(part.nodes[v]);

@@ -54,7 +54,7 @@ namespace Supple
     if (!tools.empty() || contact.between_bodies())
       {
         auto of_all = std::make_unique<Contact>(body, contact, tools, scene);
-        of_contact    = of_all.get();
+        of_contact  = of_all.get();
         add(std::move(of_all));
       }
   }

@@ -31,12 +31,13 @@ namespace Supple
         return;
       }
     if (piece.dimension != whole.dimension)
-      throw InputError(origin + ": all pieces must have cells of one kind, tetrahedra or triangles "
-                                "in the plane.");
+      throw InputError(origin +
+                       ": all pieces must have cells of one kind, tetrahedra or triangles "
+                       "in the plane.");
     if (piece.middles.empty() != whole.middles.empty())
       throw InputError(origin + ": all pieces must have cells of one order.");
     const unsigned int first = whole.vertices.size(), first_cell = whole.cells.size();
-    const auto shift         = [&](auto &vertices) {
+    const auto shift = [&](auto &vertices) {
       for (unsigned int &vertex : vertices)
         vertex += first;
     };

@@ -155,19 +155,21 @@ namespace Supple
     SerialMesh
     join_pieces(const MeshParameters &parameters, const ParameterFile &scene)
     {
-      const std::string origin              = scene.origin("Mesh/Piece maps");
-      const std::vector<std::string> maps   = Utilities::split_string_list(parameters.piece_maps, '|');
-      const std::vector<SerialMesh> meshes  = generate_or_read(parameters, scene);
-      const std::size_t n                   = std::max(maps.size(), meshes.size());
+      const std::string origin = scene.origin("Mesh/Piece maps");
+      const std::vector<std::string> maps =
+        Utilities::split_string_list(parameters.piece_maps, '|');
+      const std::vector<SerialMesh> meshes = generate_or_read(parameters, scene);
+      const std::size_t n                  = std::max(maps.size(), meshes.size());
       if (meshes.size() > 1 && !maps.empty() && maps.size() != meshes.size())
         throw InputError(origin + ": there are " + std::to_string(maps.size()) + " maps for " +
                          std::to_string(meshes.size()) +
                          " files; each file needs its own, set apart by |.");
       if (!maps.empty() && parameters.shape == MeshParameters::Shape::hollow_cylinder &&
           (parameters.order == 2 || parameters.refinement.wanted()))
-        throw InputError(origin + ": the walls of a hollow cylinder are round about the z axis, "
-                                  "where finer and quadratic cells put new nodes. Take Mesh/Order = "
-                                  "1 without Mesh/Refine.");
+        throw InputError(origin +
+                         ": the walls of a hollow cylinder are round about the z axis, "
+                         "where finer and quadratic cells put new nodes. Take Mesh/Order = "
+                         "1 without Mesh/Refine.");
       SerialMesh whole;
       for (std::size_t k = 0; k < n; ++k)
         {

@@ -211,11 +211,11 @@ namespace Supple
   void
   Diagnostics::measure_contact(Measurement::Contact &now, const StepReport &report) const
   {
-    now.tools   = forces.contact()->reports(configuration);
-    now.rubbed  = contact.rubbed + report.rubbed;
+    now.tools  = forces.contact()->reports(configuration);
+    now.rubbed = contact.rubbed + report.rubbed;
     now.min_gap =
       forces.contact()->own_gap(configuration).value_or(std::numeric_limits<double>::max());
-    now.creep   = forces.contact()->creep(configuration);
+    now.creep = forces.contact()->creep(configuration);
     for (std::size_t t = 0; t < now.tools.size(); ++t)
       {
         now.min_gap = std::min(now.min_gap, now.tools[t].gap);

@@ -40,8 +40,7 @@ namespace Supple
   std::vector<std::string>
   Frames::files()
   {
-    return {
-      "solution.pvd", "solution/frame_*", "tools.pvd", "solution/tools_*", Film::file_name()};
+    return {"solution.pvd", "solution/frame_*", "tools.pvd", "solution/tools_*", Film::file_name()};
   }
 
 
@@ -214,8 +213,8 @@ namespace Supple
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n"
       "<Collection>\n";
     for (std::size_t k = 0; k < files.size(); ++k)
-      text += "<DataSet timestep=\"" + digits(records[k].first, 15) + "\" file=\"" + files[k] +
-              "\"/>\n";
+      text +=
+        "<DataSet timestep=\"" + digits(records[k].first, 15) + "\" file=\"" + files[k] + "\"/>\n";
     return text + "</Collection>\n</VTKFile>\n";
   }
 

@@ -142,7 +142,8 @@ namespace Supple
           if (!profile && name.rfind("tool_", 0) != 0)
             continue;
           const Table table = read_table(file);
-          tables[name]      = to_json(table, profile ? rows_of_telling_steps(table) : telling_rows(table));
+          tables[name] =
+            to_json(table, profile ? rows_of_telling_steps(table) : telling_rows(table));
         }
       return tables;
     }

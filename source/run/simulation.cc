@@ -417,9 +417,7 @@ namespace Supple
     progress.clear();
     listeners.end(observation());
     last_summary.emplace(summarize(status));
-    results.write_end(*last_summary,
-                      frames ? frames->written().surface_film() : nullptr,
-                      problem);
+    results.write_end(*last_summary, frames ? frames->written().surface_film() : nullptr, problem);
     if (talks && status == "done")
       print_result(*last_summary, results.folder, results.report_file(), warnings_told);
   }

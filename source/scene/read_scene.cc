@@ -125,9 +125,9 @@ namespace Supple
         if (tool.friction > 0.)
           return parameters.origin(tool.section() + "/Friction");
       const ContactParameters &contact = parameters.contact;
-      return contact.between_bodies() && contact.friction > 0. ?
-               parameters.origin("Contact/Friction") :
-               "";
+      return contact.between_bodies() && contact.friction > 0.
+               ? parameters.origin("Contact/Friction")
+               : "";
     }
 
 
@@ -152,9 +152,9 @@ namespace Supple
                          "without bounds where tools are met. Take trbdf2, esdirk3 or esdirk4.");
       if (time.ends_with_stage())
         return;
-      const std::string what = parameters.tools.empty() ?
-                                 "bodies that meet each other (Contact/Bodies)" :
-                                 "tools (subsection " + parameters.tools[0].section() + ")";
+      const std::string what = parameters.tools.empty()
+                                 ? "bodies that meet each other (Contact/Bodies)"
+                                 : "tools (subsection " + parameters.tools[0].section() + ")";
       throw InputError(parameters.origin("Time/Method") + ": with " + what +
                        " a step must end with an implicit stage, or the body may end within "
                        "something. Take backward euler, implicit backward euler, trbdf2, esdirk3 "

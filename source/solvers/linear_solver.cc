@@ -78,10 +78,11 @@ namespace Supple
     }
 
     const std::map<Method, LinearSolver::Maker> makers = {{Method::ldlt, make_ldlt_solver},
-                                            {Method::cholmod, make_cholmod_solver},
-                                            {Method::cg_amg, make_cg_amg_solver},
-                                            {Method::cg_ml, make_cg_ml_solver},
-                                            {Method::cg_jacobi, make_cg_jacobi_solver}};
+                                                          {Method::cholmod, make_cholmod_solver},
+                                                          {Method::cg_amg, make_cg_amg_solver},
+                                                          {Method::cg_ml, make_cg_ml_solver},
+                                                          {Method::cg_jacobi,
+                                                           make_cg_jacobi_solver}};
   } // namespace
 
 

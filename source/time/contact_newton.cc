@@ -60,7 +60,7 @@ namespace Supple
         const bool small  = arrived && safe == 1. && stage.is_done(correction);
         const bool last   = small && (!touched || n_small == patience || is_balanced(stage));
         n_small += small;
-        const bool free   = safe == 1. && !touched && stage.is_linear();
+        const bool free = safe == 1. && !touched && stage.is_linear();
         if (!arrived || last || free)
           {
             advance(stage, safe);
@@ -237,8 +237,7 @@ namespace Supple
           nearest = "the tool " + contact.all_tools()[t].parameters.name;
           least   = reports[t].gap;
         }
-    if (const std::optional<double> own = contact.own_gap(model.configuration);
-        own && *own < least)
+    if (const std::optional<double> own = contact.own_gap(model.configuration); own && *own < least)
       {
         nearest = "another body";
         least   = *own;

@@ -199,7 +199,7 @@ namespace Supple
   double
   StaticEquilibrium::size_of_forces(const double load_factor) const
   {
-    const double forces = residual.l2_norm();
+    const double forces  = residual.l2_norm();
     const bool runs_away = loads_follow && !model.forces.contact(); // what is touched holds it
     return load_factor * load_size + (runs_away ? std::min(forces, forces_at_start) : forces);
   }

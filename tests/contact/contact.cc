@@ -3,9 +3,9 @@
 // what may touch against all there is, and ways that are safe.
 
 #include <supple/contact/barrier.h>
+#include <supple/contact/safe_way.h>
 #include <supple/forces/contact.h>
 #include <supple/forces/forces.h>
-#include <supple/contact/safe_way.h>
 #include <supple/scene/read_scene.h>
 
 #include <deal.II/base/mpi.h>
@@ -192,8 +192,9 @@ namespace
   kind_of(const ContactPair &pair)
   {
     static const std::string parts[] = {"", "vertex", "edge", "face"};
-    return parts[pair.part->n] + (pair.guards ? "" : " integrated") + (pair.other ? " and " + parts[pair.other->n] : "") + ", " +
-           std::to_string(pair.n_free) + (pair.is_flat ? " free, plane" : " free");
+    return parts[pair.part->n] + (pair.guards ? "" : " integrated") +
+           (pair.other ? " and " + parts[pair.other->n] : "") + ", " + std::to_string(pair.n_free) +
+           (pair.is_flat ? " free, plane" : " free");
   }
 
 
@@ -307,8 +308,8 @@ namespace
         negative          = std::max(negative, -of_matrix.minCoeff() / size);
         if (!pair.guards && !pair.has_fixed_weights()) // its second derivative is left out
           continue;
-        missing           = std::max(missing, -left.minCoeff() / size);
-        rest = std::max(rest, std::abs((matrix * (matrix - whole)).norm()) / (size * size));
+        missing = std::max(missing, -left.minCoeff() / size);
+        rest    = std::max(rest, std::abs((matrix * (matrix - whole)).norm()) / (size * size));
       }
     report("  negative part of the tangent", negative, 1e-12);
     report("  what it takes off is negative", missing, 1e-12);
@@ -411,21 +412,21 @@ namespace
       {
         const Pose from{random.arrow(0.3), random.arrow(1.)};
         const Pose to{from.place + random.arrow(2.), from.turn + random.arrow(2.)};
-        const unsigned int kind = n % 3;
+        const unsigned int kind    = n % 3;
         const SurfacePart *of_core = nullptr;
         if (!tool.is_plane())
           {
             const SurfaceParts &core = tool.shape->parts;
-            const auto &list         = kind == 0 ? core.faces() : kind == 1 ? core.edges : core.vertices;
-            of_core                  = &list[n % list.size()];
+            const auto &list = kind == 0 ? core.faces() : kind == 1 ? core.edges : core.vertices;
+            of_core          = &list[n % list.size()];
           }
         const Simplex x   = random.simplex(of_core ? kind + 1 : 1, 1.);
         const Corners way = random.corners(2.);
         const auto gap_at = [&](const double part) {
           const PlacedTool placed = tool.placed(between(from, to, part));
           const Simplex there     = on_way(x, way, part);
-          return of_core ? distance(there, placed.simplex(*of_core)) - placed.offset :
-                           placed.gap(there);
+          return of_core ? distance(there, placed.simplex(*of_core)) - placed.offset
+                         : placed.gap(there);
         };
         if (gap_at(0.) > 0.)
           ways.note(safe_part(x, way, tool, of_core, {from, to}), gap_at);
@@ -487,11 +488,8 @@ namespace
     const SurfaceParts &core      = tool.shape->parts;
     for (const bool moves : {false, true})
       {
-        const Candidates found = candidates_of(surface,
-                                               {u, moves ? way.begin() : nullptr},
-                                               tool,
-                                               {from, moves ? to : from},
-                                               0.1);
+        const Candidates found = candidates_of(
+          surface, {u, moves ? way.begin() : nullptr}, tool, {from, moves ? to : from}, 0.1);
         const auto come_near = [&](const SurfacePart &one, const SurfacePart &other) {
           for (unsigned int k = 0; k <= (moves ? 20u : 0u); ++k)
             {
@@ -508,17 +506,24 @@ namespace
           return false;
         };
         const auto &faces = surface.faces();
-        unsigned int n    = n_missing(
-          found.vertex_face, surface.vertices.size(), core.faces().size(), [&](auto one, auto other) {
-            return come_near(surface.vertices[one], core.faces()[other]);
-          });
-        n += n_missing(found.face_vertex, faces.size(), core.vertices.size(), [&](auto one, auto other) {
-          return come_near(faces[one], core.vertices[other]);
-        });
-        n += n_missing(
-          found.edge_edge, surface.edges.size(), core.edges.size(), [&](auto one, auto other) {
-            return come_near(surface.edges[one], core.edges[other]);
-          });
+        unsigned int n    = n_missing(found.vertex_face,
+                                   surface.vertices.size(),
+                                   core.faces().size(),
+                                   [&](auto one, auto other) {
+                                     return come_near(surface.vertices[one], core.faces()[other]);
+                                   });
+        n += n_missing(found.face_vertex,
+                       faces.size(),
+                       core.vertices.size(),
+                       [&](auto one, auto other) {
+                         return come_near(faces[one], core.vertices[other]);
+                       });
+        n += n_missing(found.edge_edge,
+                       surface.edges.size(),
+                       core.edges.size(),
+                       [&](auto one, auto other) {
+                         return come_near(surface.edges[one], core.edges[other]);
+                       });
         report_larger("  found", found.vertex_face.size() + found.edge_edge.size(), 0);
         report("  missing", n, 0.);
       }
@@ -536,10 +541,11 @@ namespace
       return !one.shares_node_with(other) &&
              distance(surface.simplex(one, u), surface.simplex(other, u)) < 0.15;
     };
-    unsigned int n = n_missing(
-      found.vertex_face, surface.vertices.size(), faces.size(), [&](auto one, auto other) {
-        return near(surface.vertices[one], faces[other]);
-      });
+    unsigned int n =
+      n_missing(found.vertex_face,
+                surface.vertices.size(),
+                faces.size(),
+                [&](auto one, auto other) { return near(surface.vertices[one], faces[other]); });
     std::vector<Candidate> both = found.edge_edge;
     for (const auto &[one, other] : found.edge_edge)
       both.push_back({other, one});
@@ -549,6 +555,33 @@ namespace
       });
     report_larger("  found", found.vertex_face.size(), 0);
     report("  missing", n, 0.);
+  }
+
+
+  void
+  test_searches(const std::string &slanted, const std::string &in_plane)
+  {
+    for (const std::string &scene :
+         {cube + ball, cube + slanted, cube + box, cube + wedge, square + in_plane})
+      {
+        std::printf("What may touch, at rest and on a way\n");
+        Touched touched(scene);
+        test_candidates(touched);
+      }
+    for (const std::string &scene : {beside, flat})
+      {
+        std::printf("What may touch of the surface itself\n");
+        Touched touched(scene);
+        test_own_candidates(touched);
+      }
+
+    for (const std::string &scene : {cube + table, cube + ball, cube + slanted, cube + box})
+      {
+        std::printf("Safe ways\n");
+        test_safe_ways(scene);
+      }
+    std::printf("Safe ways of the surface\n");
+    test_safe_ways_of_surface();
   }
 } // namespace
 
@@ -604,26 +637,5 @@ main(int argc, char **argv)
   std::printf("Second derivatives of distances against differences\n");
   for (const auto &[kind, difference] : distances)
     report(("  " + kind).c_str(), difference, 1e-6);
-
-  for (const std::string &scene :
-       {cube + ball, cube + slanted, cube + box, cube + wedge, square + in_plane})
-    {
-      std::printf("What may touch, at rest and on a way\n");
-      Touched touched(scene);
-      test_candidates(touched);
-    }
-  for (const std::string &scene : {beside, flat})
-    {
-      std::printf("What may touch of the surface itself\n");
-      Touched touched(scene);
-      test_own_candidates(touched);
-    }
-
-  for (const std::string &scene : {cube + table, cube + ball, cube + slanted, cube + box})
-    {
-      std::printf("Safe ways\n");
-      test_safe_ways(scene);
-    }
-  std::printf("Safe ways of the surface\n");
-  test_safe_ways_of_surface();
+  test_searches(slanted, in_plane);
 }

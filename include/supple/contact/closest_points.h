@@ -58,9 +58,9 @@ namespace Supple
     Arrow
     place(const std::array<double, 3> &c) const
     {
-      return n == 1 ? c[0] * x[0]
-                    : n == 2 ? c[0] * x[0] + c[1] * x[1]
-                             : c[0] * x[0] + c[1] * x[1] + c[2] * x[2];
+      return n == 1   ? c[0] * x[0]
+             : n == 2 ? c[0] * x[0] + c[1] * x[1]
+                      : c[0] * x[0] + c[1] * x[1] + c[2] * x[2];
     }
   };
 

@@ -46,9 +46,10 @@ namespace Supple
     std::array<std::array<double, 6>, 2> dc{}; ///< dc_i / dtheta_k
     std::array<Arrow, 2> J{};                  ///< derivatives of d n by theta_k [m]
 
-    double factor = 1.;                     ///< of the barrier
-    std::array<Arrow, 6> factor_gradient{}; ///< by the places of the nodes, or of a tool's edge [1/m]
-    Arrow other_edge;                       ///< from one end to the other [m]
+    double factor = 1.; ///< of the barrier
+    std::array<Arrow, 6>
+      factor_gradient{}; ///< by the places of the nodes, or of a tool's edge [1/m]
+    Arrow other_edge;    ///< from one end to the other [m]
 
     /** Whether the place on the surface is fixed, a vertex or a point of a rule, and the other one
      * is a tool's. */

@@ -54,15 +54,15 @@ namespace Supple
 
     std::string name;
     Shape shape          = Shape::sphere;
-    std::string position = "0; 0; 0";          ///< of its reference point in time [m]
-    std::string rotation = "0; 0; 0";          ///< about that point: axis times angle [degrees]
-    dealii::Tensor<1, 3> normal{{0., 0., 1.}}; ///< of a plane, toward the body
-    dealii::Tensor<1, 3> axis{{0., 0., 0.1}};  ///< of a capsule, from its tip on [m]
-    double radius   = 0.01;                    ///< [m]
+    std::string position = "0; 0; 0";           ///< of its reference point in time [m]
+    std::string rotation = "0; 0; 0";           ///< about that point: axis times angle [degrees]
+    dealii::Tensor<1, 3> normal{{0., 0., 1.}};  ///< of a plane, toward the body
+    dealii::Tensor<1, 3> axis{{0., 0., 0.1}};   ///< of a capsule, from its tip on [m]
+    double radius = 0.01;                       ///< [m]
     dealii::Tensor<1, 3> size{{0.1, 0.1, 0.1}}; ///< of a box [m]
-    std::string file;                          ///< of its surface
-    double scale    = 1.;                      ///< of the file [m]
-    double friction = 0.;                      ///< coefficient of Coulomb's law
+    std::string file;                           ///< of its surface
+    double scale    = 1.;                       ///< of the file [m]
+    double friction = 0.;                       ///< coefficient of Coulomb's law
 
     void
     declare(dealii::ParameterHandler &prm);
@@ -78,6 +78,11 @@ namespace Supple
     /** The surface in its file. @throws InputError */
     TriangleMesh
     read(const ParameterFile &scene) const;
+
+  private:
+    /** What tells each shape its size and direction. */
+    void
+    declare_shapes(dealii::ParameterHandler &prm);
   };
 
 

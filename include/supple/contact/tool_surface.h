@@ -14,8 +14,8 @@ namespace Supple
   extent_of_planes(const Body &body);
 
 
-  /** The surface of a tool for pictures, in the tool's frame [m]. Round ones are polyhedra, and of a
-   * plane it is a square about its reference point. @param extent edge of that square [m] */
+  /** The surface of a tool for pictures, in the tool's frame [m]. Round ones are polyhedra, and of
+   * a plane it is a square about its reference point. @param extent edge of that square [m] */
   TriangleMesh
   drawn_surface(const Tool &tool, double extent);
 

@@ -171,13 +171,13 @@ namespace Supple
     std::vector<double>
     works(const Configuration &configuration, double weight) const;
 
-    /** The pressure of all that touches on each node, over its share of the surface, as the first of
-     * its three numbers [Pa]. */
+    /** The pressure of all that touches on each node, over its share of the surface, as the first
+     * of its three numbers [Pa]. */
     Vector
     pressure(const Configuration &configuration) const;
 
-    /** @throws InputError if the body or a part of it is within a tool or another body, or the other
-     * way round; collective */
+    /** @throws InputError if the body or a part of it is within a tool or another body, or the
+     * other way round; collective */
     void
     require_clear(const Configuration &configuration, const ParameterFile &scene) const;
 

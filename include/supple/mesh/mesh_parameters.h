@@ -54,7 +54,7 @@ namespace Supple
     std::vector<double> material_layers;  ///< thicknesses from the top (largest y) downward [m]
     std::vector<unsigned int> layer_rows; ///< of cubes or squares in each layer; may be empty
 
-    std::string file; ///< or several, as written; relative to the folder of the scene
+    std::string file;       ///< or several, as written; relative to the folder of the scene
     std::string piece_maps; ///< where the vertices of each piece are put; empty: one piece
     double scale = 1.;
     std::string boundary_regions;
