@@ -111,15 +111,15 @@ def scene_of(entries, tools):
     return "\n".join(f"subsection {section}\n" + "".join(f"  set {name} = {value}\n" for name, value in lines) + "end" for section, lines in sections.items())
 
 
-def result(program, folder, scene):
+def result(program, folder, scene, seconds):
     """(status, message, least gap over the reach, iterations of each step, error in the balance of energies)"""
     (folder / "scene.prm").write_text(scene + "\n")
     output = folder / "output"
     try:
         done = subprocess.run([program, folder / "scene.prm", "--quiet", "--output", output, "--set", "Output/Frames=none", "--set", "Output/Report=false"],
-                              capture_output=True, text=True, timeout=300, check=False)
+                              capture_output=True, text=True, timeout=seconds, check=False)
     except subprocess.TimeoutExpired:
-        return None, "not done after 300 s", math.nan, [], math.nan
+        return None, f"not done after {seconds} s", math.nan, [], math.nan
     if done.returncode == 1 or not (output / "history.csv").exists():
         return done.returncode, done.stderr.strip(), math.nan, [], math.nan
     with open(output / "history.csv") as file:
@@ -134,6 +134,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--runs", type=int, default=500)
     parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--seconds", type=float, default=60, help="that a run may take")
     parser.add_argument("--keep", action="store_true", help="leave the folders")
     parser.add_argument("--program", default=str(ROOT / "build" / "supple"))
     arguments = parser.parse_args()
@@ -144,7 +145,7 @@ def main():
     for number in range(arguments.first, arguments.first + arguments.runs):
         kind = kinds[number % len(kinds)]
         folder = pathlib.Path(tempfile.mkdtemp(prefix=f"supple-{number}-"))
-        status, message, gap, iterations, missing = result(arguments.program, folder, scene_of(*kind(random.Random(number))))
+        status, message, gap, iterations, missing = result(arguments.program, folder, scene_of(*kind(random.Random(number))), arguments.seconds)
         refused = status == 1 and ("at the start" in message)
         table[kind.__name__]["too slow" if status is None else "done" if status == 0 else "failed with words" if status == 2 else "refused" if refused else "WRONG"] += 1
         if not (status in (None, 0, 2) or refused) or gap <= 0:

@@ -235,7 +235,8 @@ namespace Supple
                     nearest = &other;
                   least = std::min(least, there);
                 }
-              maker.add_point(face, c, nearest, share * face.measure / points.size(), false);
+              if (nearest)
+                maker.add_point(face, c, nearest, share * face.measure / points.size(), false);
             }
         }
     }
@@ -372,8 +373,11 @@ namespace Supple
     };
     for (const Candidate &pair : candidates.edge_edge)
       add_parts(surface.edges[pair.one], core.edges[pair.other]);
+    // The edges of a plane body are its faces, and have met the core of a sphere already.
+    const bool edges_have_met = surface.triangles.empty() && core.edges[0].n == 1;
     for (const Candidate &pair : candidates.face_vertex)
-      add_parts(faces[pair.one], core.vertices[pair.other]);
+      if (!edges_have_met)
+        add_parts(faces[pair.one], core.vertices[pair.other]);
   }
 
 

@@ -21,22 +21,25 @@ namespace Supple
   ContactParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Contact");
-    add(prm,
-        "Stiffness",
-        stiffness,
-        "Pa",
-        Range::at_least(0),
-        "Pressure of the barrier between the body and tools where half of its reach is left, "
-        "roughly. 0: ten times the Young's modulus of the stiffest material. A softer one is "
-        "pressed deeper; far below Young's modulus the steps fail.");
-    add(prm,
-        "Reach",
-        reach,
-        "m",
-        Range::at_least(0),
-        "Thickness of the barrier: a body touches a tool where their surfaces meet, and enters it "
-        "by less than this. 0: a thousandth of the body's diameter, but no more than a tenth of "
-        "the shortest edge of its surface. Of a tool it is at most half the radius.");
+    add(
+      prm,
+      "Stiffness",
+      stiffness,
+      "Pa",
+      Range::at_least(0),
+      "Pressure of the barrier between the body and what it meets where half of its reach is left, "
+      "roughly. 0: ten times the Young's modulus of the stiffest material. A softer one is "
+      "pressed deeper; far below Young's modulus the steps fail.");
+    add(
+      prm,
+      "Reach",
+      reach,
+      "m",
+      Range::at_least(0),
+      "Thickness of the barrier: a body touches a tool where their surfaces meet, and enters it "
+      "by less than this. 0: a thousandth of the body's diameter, but no more than a tenth of "
+      "the shortest edge of its surface. Of a tool it is at most half the radius, or a quarter of "
+      "the shortest edge of a box.");
     add(prm,
         "Guard",
         guard,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Supple
 {
@@ -75,15 +76,14 @@ namespace Supple
         Arrow mean;
         for (std::size_t k = 0; k < u.size(); ++k)
           mean += off(k) / double(u.size());
-        double square = 0.;
         for (std::size_t k = 0; k < u.size(); ++k)
-          square = std::max(square, (off(k) - mean).norm_square());
-        return 2. * std::sqrt(square) <= searched.margin;
+          if (!(2. * (off(k) - mean).norm() <= searched.margin)) // nor where it is not a number
+            return false;
+        return true;
       }
     const Pose there  = between(searched.tool.from, searched.tool.to, part);
     const Arrow shift = pose.place - there.place;
     const double turn = (pose.turn - there.turn).norm();
-    double largest    = 0.;
     for (std::size_t k = 0; k < u.size(); ++k)
       {
         const double moved = (off(k) - shift).norm();
@@ -93,9 +93,10 @@ namespace Supple
             : (tool->is_plane()
                  ? (Arrow(surface.body.position(surface.nodes[k])) + u[k] - pose.place).norm()
                  : tool->shape->lever);
-        largest = std::max(largest, moved + turn * lever);
+        if (!(moved + turn * lever <= searched.margin))
+          return false;
       }
-    return largest <= searched.margin;
+    return true;
   }
 
 

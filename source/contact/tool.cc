@@ -88,6 +88,16 @@ namespace Supple
     }
 
 
+    /** Of a box that a plane body meets only two lengths count: along z it is long. */
+    ToolParameters
+    in_section(ToolParameters tool, const Section &section)
+    {
+      if (section.plane())
+        tool.size[2] = tool.size[0] + tool.size[1];
+      return tool;
+    }
+
+
     double
     offset_of(const ToolParameters &tool, const double reach)
     {
@@ -131,15 +141,15 @@ namespace Supple
              const Section &section,
              const double wanted_reach,
              const ParameterFile &scene)
-    : parameters(parameters)
-    , reach(std::min(wanted_reach, largest_reach(parameters)))
-    , offset(offset_of(parameters, reach))
+    : parameters(in_section(parameters, section))
+    , reach(std::min(wanted_reach, largest_reach(this->parameters)))
+    , offset(offset_of(this->parameters, reach))
     , position(parameters.position, 3, scene.origin(parameters.section() + "/Position"))
     , rotation(parameters.rotation, 3, scene.origin(parameters.section() + "/Rotation"))
   {
     parameters.check(scene);
     require_motion(scene);
-    shape = core_of(parameters, reach, scene);
+    shape = core_of(this->parameters, reach, scene);
     if (section.plane())
       require_plane_motion(scene);
   }

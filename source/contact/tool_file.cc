@@ -6,6 +6,7 @@
 #include <assimp/cimport.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <deal.II/base/tensor.h>
 
 #include <algorithm>
 #include <cmath>
@@ -60,6 +61,19 @@ namespace Supple
     }
 
 
+    bool
+    has_area(const TriangleMesh &mesh, const std::array<unsigned int, 3> &triangle)
+    {
+      dealii::Tensor<1, 3> u, v;
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          u[i] = mesh.points[triangle[1]][i] - mesh.points[triangle[0]][i];
+          v[i] = mesh.points[triangle[2]][i] - mesh.points[triangle[0]][i];
+        }
+      return dealii::cross_product_3d(u, v).norm() > 0.;
+    }
+
+
     TriangleMesh
     join(const std::vector<double> &corners)
     {
@@ -77,8 +91,7 @@ namespace Supple
                 mesh.points.push_back(found->first);
               triangle[v] = found->second;
             }
-          if (triangle[0] != triangle[1] && triangle[1] != triangle[2] &&
-              triangle[2] != triangle[0])
+          if (has_area(mesh, triangle))
             mesh.triangles.push_back(triangle);
         }
       return mesh;
@@ -109,10 +122,11 @@ namespace Supple
         throw InputError(origin + ": '" + file + "' is damaged: its reader fails on it (" +
                          error.what() + ").");
       }
-    if (corners.empty())
-      throw InputError(origin + ": there are no triangles in '" + file + "'.");
     if (!std::all_of(corners.begin(), corners.end(), [](double x) { return std::isfinite(x); }))
       throw InputError(origin + ": places in '" + file + "' are not finite numbers.");
-    return join(corners);
+    const TriangleMesh mesh = join(corners);
+    if (mesh.triangles.empty())
+      throw InputError(origin + ": there are no triangles with an area in '" + file + "'.");
+    return mesh;
   }
 } // namespace Supple

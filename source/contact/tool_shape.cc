@@ -11,6 +11,9 @@ namespace Supple
 
   namespace
   {
+    // Cosine of the angle between two faces that lie on both sides of their edge in one plane.
+    constexpr double straight = -1. + 1e-12;
+
     constexpr double endless = std::numeric_limits<double>::infinity();
 
 
@@ -87,35 +90,34 @@ namespace Supple
   void
   ToolShape::set_triangles(const std::vector<std::array<unsigned int, 3>> &triangles)
   {
-    constexpr double flat = 1e-6; // sine of the angle between faces
-
     struct Edge
     {
       double measure         = 0.;
       unsigned int n         = 0; ///< faces
       bool bends             = false;
-      Arrow normal           = Arrow();
-      unsigned int from_less = 0; ///< faces that go from the smaller number to the larger
+      Arrow across           = Arrow(); ///< into the last face, of length 1
+      unsigned int from_less = 0;       ///< faces that go from the smaller number to the larger
     };
     std::map<std::array<unsigned int, 2>, Edge> edges;
     std::vector<double> of_point(points.size(), 0.);
     for (const std::array<unsigned int, 3> &nodes : triangles)
       {
-        Arrow normal      = cross_product_3d(points[nodes[1]] - points[nodes[0]],
-                                        points[nodes[2]] - points[nodes[0]]);
-        const double area = 0.5 * normal.norm();
+        const Arrow normal = cross_product_3d(points[nodes[1]] - points[nodes[0]],
+                                              points[nodes[2]] - points[nodes[0]]);
+        const double area  = 0.5 * normal.norm();
         if (!(area > 0.))
           continue;
-        normal /= 2. * area;
         parts.triangles.push_back({3, nodes, area, true});
         for (unsigned int v = 0; v < 3; ++v)
           {
             const unsigned int one = nodes[v], other = nodes[(v + 1) % 3];
             of_point[one] += area / 3.;
-            Edge &edge = edges[{{std::min(one, other), std::max(one, other)}}];
-            edge.bends = edge.n > 0 && cross_product_3d(normal, edge.normal).norm() > flat;
+            Edge &edge   = edges[{{std::min(one, other), std::max(one, other)}}];
+            Arrow across = cross_product_3d(normal, points[other] - points[one]);
+            across /= across.norm();
+            edge.bends = edge.n > 0 && !(across * edge.across < straight);
             edge.measure += area / 3.;
-            edge.normal = normal;
+            edge.across = across;
             edge.from_less += one < other;
             ++edge.n;
           }

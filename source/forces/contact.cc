@@ -300,9 +300,8 @@ namespace Supple
 
 
   void
-  Contact::connect(const SymmetricPattern &new_pattern)
+  Contact::connect(const SymmetricPattern &)
   {
-    pattern        = &new_pattern;
     pattern_is_old = false;
   }
 
@@ -648,10 +647,10 @@ namespace Supple
     if (bodies == ContactParameters::Bodies::tools)
       return {};
     const GhostValues u(configuration.displacement());
-    double least = reach;
+    std::optional<double> least;
     for (const ContactPair &pair : pairs(u.data(), configuration.passage))
       if (pair.other)
-        least = std::min(least, pair.gap);
+        least = std::min(least.value_or(pair.gap), pair.gap);
     return least;
   }
 

@@ -8,7 +8,9 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <set>
 
 namespace Supple
 {
@@ -26,6 +28,14 @@ namespace Supple
       for (unsigned int v = 0; v < simplex.n; ++v)
         longest = std::max(longest, (simplex.x[(v + 1) % simplex.n] - simplex.x[v]).norm());
       return longest;
+    }
+
+
+    /** Weights of the corners. */
+    std::array<double, 3>
+    center(const SurfacePart &part)
+    {
+      return {{1. / part.n, 1. / part.n, 1. / part.n}};
     }
 
 
@@ -92,6 +102,8 @@ namespace Supple
   bool
   Contact::body_contains(const double *const u, const Arrow &place) const
   {
+    constexpr double round_off = 1e-9; // what lies on the surface is outside
+
     const auto corner = [&](const unsigned int node) {
       return Arrow(body.position(node)) + Arrow({u[3 * node], u[3 * node + 1], u[3 * node + 2]});
     };
@@ -114,7 +126,7 @@ namespace Supple
           {
             std::array<Arrow, 4> part = x;
             part[v]                   = inside;
-            within = six_volumes(part[0], part[1], part[2], part[3]) / volume > 0.;
+            within = six_volumes(part[0], part[1], part[2], part[3]) / volume > round_off;
           }
         if (within)
           return true;
@@ -135,9 +147,10 @@ namespace Supple
         const Nearest place     = nearest(u.data(), placed);
         const std::string words = scene.origin(tool.parameters.section() + "/Position") +
                                   ": at the start the tool " + tool.parameters.name + " is ";
+        const std::string depth =
+          placed.offset == 0. ? "" : digits(placed.reach - place.gap, 3) + " m deep ";
         if (place.gap <= 0.)
-          throw InputError(words + digits(placed.reach - place.gap, 3) +
-                           " m deep in the body, at " +
+          throw InputError(words + depth + "in the body, at " +
                            Selection(body).vertex_in_words(place.vertex) +
                            ". It must be outside; it may touch the surface.");
         unsigned int within     = 0;
@@ -156,6 +169,15 @@ namespace Supple
   void
   Contact::require_no_crossing(const double *const u, const ParameterFile &scene) const
   {
+    if (bodies == ContactParameters::Bodies::tools)
+      return;
+    std::set<unsigned int> pieces;
+    for (const SurfacePart &face : surface.faces())
+      if (pieces.insert(body.mesh.parts->parts[face.nodes[0]]).second &&
+          body_contains(u, surface.simplex(face, u).place(center(face))))
+        throw InputError(scene.origin("Contact/Bodies") +
+                         ": at the start a piece of the body is within another, at " +
+                         Selection(body).vertex_in_words(body.serial_vertex[face.nodes[0]]) + ".");
     const Candidates near = search.own(u);
     for (const auto &[one, other] : near.face_face)
       {
@@ -191,6 +213,10 @@ namespace Supple
             " m, is thinner than the cells that it is next to, with edges of " +
             digits(place.edge, 3) + " m: its force depends on the mesh. Edges of less than " +
             digits(radius, 3) + " m would do.");
+        if (tool.shape && !tool.shape->parts.triangles.empty() && !tool.shape->is_closed())
+          warnings.push_back("The surface of the tool " + tool.parameters.name +
+                             " is not closed, or its triangles do not all turn the same way: "
+                             "whether the body begins within it is not known.");
         if (place.gap < placed.reach * (1. - 1e-6))
           warnings.push_back("At the start the tool " + tool.parameters.name + " is " +
                              digits(placed.reach - place.gap, 3) +

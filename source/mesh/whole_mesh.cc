@@ -14,6 +14,7 @@
 #include <cmath>
 #include <filesystem>
 #include <sstream>
+#include <utility>
 
 namespace Supple
 {
@@ -142,11 +143,14 @@ namespace Supple
     std::vector<SerialMesh>
     generate_or_read(const MeshParameters &parameters, const ParameterFile &scene)
     {
-      if (parameters.shape != MeshParameters::Shape::file)
-        return {generate(parameters)};
       std::vector<SerialMesh> meshes;
-      for (const std::string &file : Utilities::split_string_list(parameters.file, ','))
-        meshes.push_back(read_file(file, parameters.scale, scene));
+      if (parameters.shape != MeshParameters::Shape::file)
+        meshes.push_back(generate(parameters));
+      else if (std::filesystem::exists(std::filesystem::path(scene.folder()) / parameters.file))
+        meshes.push_back(read_file(parameters.file, parameters.scale, scene));
+      else
+        for (const std::string &file : Utilities::split_string_list(parameters.file, ','))
+          meshes.push_back(read_file(file, parameters.scale, scene));
       return meshes;
     }
 
@@ -158,8 +162,8 @@ namespace Supple
       const std::string origin = scene.origin("Mesh/Piece maps");
       const std::vector<std::string> maps =
         Utilities::split_string_list(parameters.piece_maps, '|');
-      const std::vector<SerialMesh> meshes = generate_or_read(parameters, scene);
-      const std::size_t n                  = std::max(maps.size(), meshes.size());
+      std::vector<SerialMesh> meshes = generate_or_read(parameters, scene);
+      const std::size_t n            = std::max(maps.size(), meshes.size());
       if (meshes.size() > 1 && !maps.empty() && maps.size() != meshes.size())
         throw InputError(origin + ": there are " + std::to_string(maps.size()) + " maps for " +
                          std::to_string(meshes.size()) +
@@ -170,6 +174,8 @@ namespace Supple
                          ": the walls of a hollow cylinder are round about the z axis, "
                          "where finer and quadratic cells put new nodes. Take Mesh/Order = "
                          "1 without Mesh/Refine.");
+      if (maps.empty() && meshes.size() == 1)
+        return std::move(meshes[0]);
       SerialMesh whole;
       for (std::size_t k = 0; k < n; ++k)
         {

@@ -211,11 +211,13 @@ namespace Supple
   void
   Diagnostics::measure_contact(Measurement::Contact &now, const StepReport &report) const
   {
-    now.tools  = forces.contact()->reports(configuration);
-    now.rubbed = contact.rubbed + report.rubbed;
-    now.min_gap =
-      forces.contact()->own_gap(configuration).value_or(std::numeric_limits<double>::max());
-    now.creep = forces.contact()->creep(configuration);
+    now.tools                       = forces.contact()->reports(configuration);
+    now.rubbed                      = contact.rubbed + report.rubbed;
+    const std::optional<double> own = forces.contact()->own_gap(configuration);
+    const bool has_tools            = !now.tools.empty();
+    now.min_gap                     = own.value_or(has_tools ? std::numeric_limits<double>::max()
+                                         : forces.contact()->reach_between_bodies());
+    now.creep                       = forces.contact()->creep(configuration);
     for (std::size_t t = 0; t < now.tools.size(); ++t)
       {
         now.min_gap = std::min(now.min_gap, now.tools[t].gap);

@@ -4,6 +4,7 @@
 #include <supple/base/text.h>
 #include <supple/contact/tool_surface.h>
 #include <supple/forces/contact.h>
+#include <supple/output/tool_polygons.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>

@@ -102,7 +102,7 @@ class Charts {
     if (this.more.children.length > 1) this.tail = this.more;
   }
 
-  /** The force of each tool on the body, and its torque where it turns the body. */
+  /** The force of each tool on the body, and how deep that is within it. */
   addTools() {
     for (const [name, table] of Object.entries(this.data.tables)) {
       if (!name.startsWith('tool_')) continue;

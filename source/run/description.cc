@@ -283,8 +283,16 @@ namespace Supple
                          digits(worst.gaps[t] - tool.reach, 3) + " m.");
       }
     constexpr double degrees = 180. / M_PI, many = 5.;
+    const auto touched = [&](const std::size_t t) {
+      return t < worst.gaps.size() && worst.gaps[t] < contact->all_tools()[t].reach;
+    };
+    const auto matters = [&](const std::size_t t) {
+      const ToolParameters &tool = contact->all_tools()[t].parameters;
+      return tool.friction > 0. || tool.shape != ToolParameters::Shape::sphere;
+    };
     for (std::size_t t = 0; t < contact->all_tools().size(); ++t)
-      if (const double turn = degrees * contact->turns_within_steps()[t]; turn > many)
+      if (const double turn = degrees * contact->turns_within_steps()[t];
+          turn > many && touched(t) && matters(t))
         list.push_back("The tool " + contact->all_tools()[t].parameters.name + " turned by " +
                        digits(turn, 3) +
                        " degrees within a step: friction and work see the straight way between "

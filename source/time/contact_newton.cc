@@ -26,26 +26,12 @@ namespace Supple
   void
   ContactNewton::solve(ImplicitStage &stage)
   {
-    contact.require_room(model.configuration.passage, model.constraints);
-    contact.begin_step(model.configuration);
-    try
-      {
-        iterate(stage);
-      }
-    catch (const ComputationError &error)
-      {
-        throw ComputationError(error.what() + what_is_near());
-      }
-  }
-
-
-  void
-  ContactNewton::iterate(ImplicitStage &stage)
-  {
     constexpr unsigned int patience = 3; // with round-off in forces that hardly act any more
 
     const Configuration &configuration = model.configuration;
     unsigned int n_small               = 0; // corrections
+    contact.require_room(configuration.passage, model.constraints);
+    contact.begin_step(configuration);
     choose_passage(stage);
     warm_up(stage);
     for (unsigned int n = 0; n < model.time.newton_limit; ++n)
@@ -73,7 +59,7 @@ namespace Supple
       }
     throw ComputationError("Newton's method is not done after " +
                            std::to_string(model.time.newton_limit) +
-                           " iterations (Time/Newton iterations)");
+                           " iterations (Time/Newton iterations)" + what_is_near());
   }
 
 
@@ -83,9 +69,7 @@ namespace Supple
   {
     constexpr double small = 1e-3; // of the forces before the last correction: squared after it
 
-    const Configuration &configuration = model.configuration;
-    sum_into(contact_force,
-             [&](double *sum) { contact.add_force(configuration, configuration.passage.to, sum); });
+    set_contact_force();
     return stage.residual().l2_norm() <= small * contact_force.l2_norm();
   }
 
@@ -185,14 +169,22 @@ namespace Supple
   }
 
 
+  void
+  ContactNewton::set_contact_force()
+  {
+    const Configuration &configuration = model.configuration;
+    sum_into(contact_force,
+             [&](double *sum) { contact.add_force(configuration, configuration.passage.to, sum); });
+    model.constraints.set_zero(contact_force);
+  }
+
+
   ContactNewton::Slope
   ContactNewton::slope(const ImplicitStage &stage)
   {
     const Configuration &configuration = model.configuration;
     const MPI_Comm communicator        = model.body.mesh.communicator;
-    sum_into(contact_force,
-             [&](double *sum) { contact.add_force(configuration, configuration.passage.to, sum); });
-    model.constraints.set_zero(contact_force);
+    set_contact_force();
     const double energy = contact.potential(configuration);
     return {Utilities::MPI::sum(energy, communicator),
             stage.residual() * correction - contact_force * correction,
@@ -221,7 +213,8 @@ namespace Supple
       }
     throw ComputationError(
       "no part of Newton's correction lowers the energy of the body and what "
-      "it touches");
+      "it touches" +
+      what_is_near());
   }
 
 
@@ -239,9 +232,11 @@ namespace Supple
         }
     if (const std::optional<double> own = contact.own_gap(model.configuration); own && *own < least)
       {
-        nearest = "another body";
+        nearest = "itself or another body";
         least   = *own;
       }
-    return "; the least gap is that to " + nearest + ", " + digits(least, 2) + " m";
+    return nearest.empty()
+             ? ""
+             : "; the least gap is that to " + nearest + ", " + digits(least, 2) + " m";
   }
 } // namespace Supple

@@ -3,6 +3,7 @@
 // what may touch against all there is, and ways that are safe.
 
 #include <supple/contact/barrier.h>
+#include <supple/contact/contact_search.h>
 #include <supple/contact/safe_way.h>
 #include <supple/forces/contact.h>
 #include <supple/forces/forces.h>
@@ -558,6 +559,58 @@ namespace
   }
 
 
+  /** On a random walk of states and ways: what a search keeps gives the pairs of a fresh one. */
+  void
+  test_search(Touched &touched)
+  {
+    const std::vector<Tool> &tools = touched.contact.all_tools();
+    const auto bodies              = touched.parameters.contact.bodies;
+    ContactSearch kept(touched.surface, tools, 0.05, bodies);
+    Random random;
+    Vector &u = touched.configuration.state.displacement;
+    Vector way;
+    touched.body.initialize(way);
+    std::vector<Pose> poses;
+    for (const Tool &tool : tools)
+      poses.push_back(tool.pose(0.));
+    unsigned int n_pairs = 0, n_other = 0;
+    for (unsigned int n = 0; n < 200; ++n)
+      {
+        const double size = n % 3 == 0 ? 0.05 : 0.002;
+        for (unsigned int node = 0; node < touched.body.n_owned; ++node)
+          for (unsigned int i = 0; i < (touched.body.mesh.section.plane() ? 2u : 3u); ++i)
+            way.local_element(3 * node + i) = random.arrow(size)[i];
+        std::vector<ToolMotion> motions;
+        for (const Pose &pose : poses)
+          motions.push_back(
+            {pose, {pose.place + random.arrow(size), pose.turn + random.arrow(size)}});
+        kept.find({u.begin(), way.begin()}, motions);
+        const double part = n % 4 / 3.;
+        u.add(part, way);
+        for (std::size_t t = 0; t < poses.size(); ++t)
+          poses[t] = between(motions[t].from, motions[t].to, part);
+        const auto pairs_of = [&](const AllCandidates &candidates) {
+          const PairFinder finder(touched.surface, 0.3, 0.05);
+          std::vector<ContactPair> pairs;
+          for (unsigned int t = 0; t < tools.size(); ++t)
+            finder.add(pairs, u.begin(), tools[t].placed(poses[t]), t, candidates.of_tools[t]);
+          finder.add_own(pairs, u.begin(), *candidates.own);
+          return pairs;
+        };
+        ContactSearch fresh(touched.surface, tools, 0.05, bodies);
+        const auto one = pairs_of(kept.find(u.begin(), poses));
+        const auto two = pairs_of(fresh.find(u.begin(), poses));
+        n_pairs += two.size();
+        n_other += one.size() != two.size();
+        for (std::size_t k = 0; k < std::min(one.size(), two.size()); ++k)
+          n_other += one[k].gap != two[k].gap || one[k].part != two[k].part;
+        u.add(-0.9 * part, way); // or it would drift apart
+      }
+    report_larger("  pairs", n_pairs, 100);
+    report("  others than a fresh search gives", n_other, 0.);
+  }
+
+
   void
   test_searches(const std::string &slanted, const std::string &in_plane)
   {
@@ -567,6 +620,12 @@ namespace
         std::printf("What may touch, at rest and on a way\n");
         Touched touched(scene);
         test_candidates(touched);
+      }
+    for (const std::string &scene : {cube + table, cube + box, square + ball, beside, flat})
+      {
+        std::printf("Searches that are kept\n");
+        Touched touched(scene);
+        test_search(touched);
       }
     for (const std::string &scene : {beside, flat})
       {

@@ -86,6 +86,44 @@ refused({"Tool floor/Position": "0; 0; t"}, "the tool must stay in it", scene=PL
 refused({"Tool floor/Rotation": "0; 10; 0"}, "it can turn about z alone", scene=PLANE)
 refused({"Tool floor/Normal": "0, 1, 1"}, "third component must be 0", scene=PLANE)
 
+# Tools of files, and boxes.
+pin = "subsection Tool pin\n set Shape = file\n set File = {}\n set Position = 0.05; 0.05; 0.3\nend\n"
+(folder / "broken.stl").write_bytes(b"\x00\xff" * 60)
+(folder / "flat.obj").write_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")
+(folder / "open.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+refused({}, "Tool pin/File", "no file", more=pin.format("nowhere.stl"))
+refused({}, "Tool pin/File", ".stl, .obj or .ply", more=pin.format("mesh.msh"))
+refused({}, "Tool pin/File", "broken.stl", more=pin.format("broken.stl"))
+refused({}, "no triangles with an area", more=pin.format("flat.obj"))
+refused({}, "needs a surface of triangles", more="subsection Tool pin\n set Shape = file\nend\n")
+warned({}, "The surface of the tool pin is not closed", more=pin.format("open.obj"))
+refused({"Tool floor/Shape": "box", "Tool floor/Size": "0, 1, 1"}, "Tool floor/Size")
+refused({"Tool floor/Position": "x; 0; 0"}, "x, y and z mean nothing in them")
+refused({"Tool floor/Position": "1/t; 0; 0"}, "not a finite number")
+refused({"Contact/Reach": 1}, "more than a tenth of the body's diameter")
+inside = "subsection Tool ball\n set Shape = sphere\n set Radius = 0.001\n set Position = 0.043; 0.051; 0.062\nend\n"
+refused({}, "the tool ball is wholly within the body", more=inside)
+warned({"Tool floor/Position": "0; 0; 0.011", "Tool floor/Friction": 0.1, "Tool floor/Rotation": "0; 0; 1000*t", "Contact/Reach": 0.005},
+       "The tool floor turned by 10 degrees within a step")
+
+# Bodies that touch each other.
+refused({"Mesh/Piece maps": "x; y; z | x + 0.05; y; z", "Contact/Bodies": "pieces"}, "Contact/Bodies", "the surface meets itself")
+refused({"Mesh/Piece maps": "x; y; z | 0.05 + 0.1*x; 0.05 + 0.1*y; 0.05 + 0.1*z", "Contact/Bodies": "pieces"}, "a piece of the body is within another")
+refused({"Mesh/Piece maps": "x; y"}, "Mesh/Piece maps")
+refused({"Contact/Bodies": "all", "Time/Method": "ida"}, "bodies that meet each other", "must end with an implicit stage",
+        scene=SOLID.replace("subsection Tool floor\n  set Shape = plane\nend\n", ""))
+refused({"Contact/Bodies": "all", "Contact/Friction": 0.1, "Time/Method": "trbdf2"}, "Contact/Friction", "of first order")
+warned({"Mesh/Piece maps": "x; y; z | x; y; z + 0.10001", "Contact/Bodies": "pieces"}, "At the start bodies are 1e-05 m apart")
+SCENE.write_text(SOLID)
+status, _, error = runner.run(SCENE, "--output", folder / "results", *runner.overrides({"Contact/Bodies": "all"}), ranks=2)
+runner.check(status == 1 and "on one process alone" in error, f"{status}: {error}")
+
+# The tools are drawn beside each frame.
+drawn = runner.simulate(SCENE, {"Output/Frames": "every", "Output/Report": "true"})
+shapes = sorted((drawn.folder / "solution").glob("tools_*.vtp"))
+runner.check(len(shapes) == 3 and all(file.name in (drawn.folder / "tools.pvd").read_text() for file in shapes), f"{shapes}")
+runner.check('NumberOfPolys="2"' in shapes[0].read_text() and '"name":"floor"' in (drawn.folder / "report.html").read_text(), "no tools in picture and page")
+
 # Warnings: thin tools and the cells that would do, a start in contact, a tool that touches nothing, entries without effect.
 thin = "subsection Tool pin\n set Shape = capsule\n set Radius = 0.001\n set Position = 0.03; 0.02; 0.115\n set Axis = 0, 0, 0.1\nend\n"
 warned({}, "The tool pin, with a radius of 0.001 m, is thinner than the cells", "Edges of less than 0.001 m would do", more=thin)

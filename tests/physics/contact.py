@@ -206,8 +206,10 @@ def shapes():
         runner.check(balance(rest.history()) < 1e-9, f"{name}: energies out of balance by {balance(rest.history())}")
         weight[name] = last["fz"]
         small = {"Tool floor/Size": "0.02, 0.02, 0.02"} if name == "box" else {"Tool floor/Scale": 1e-4}
-        over = simulate(CUBE, {**settings, **small, "Tool floor/Rotation": "0; 0; 20", "Time/Step": 0.005, "Time/Steps": 60})
-        runner.check(balance(over.history()) < 1e-10 and over.history()[-1]["lx"] != 0, f"{name}: turned over, {balance(over.history())}")
+        over = simulate(CUBE, {**settings, **small, "Tool floor/Position": "0.02; 0.05; -0.01", "Tool floor/Rotation": "0; 0; 20", "Time/Step": 0.005, "Time/Steps": 60})
+        runner.check(balance(over.history()) < 1e-8, f"{name}: turned over, {balance(over.history())}")
+        turned = over.history()[-1]
+        runner.check(abs(turned["lx"]) + abs(turned["ly"]) > 1e-4, f"{name}: it does not turn over the edge: {turned}")
 
     ball = {"Tool floor/Shape": "sphere", "Tool floor/Radius": 0.02, "Tool floor/Friction": 0.3, "Loads/Gravity": "0, 0, 0",
             "Constraints/Clamped boundaries": "5", "Contact/Slip resolution": 1e-3, "Time/Step": 1e-3, "Time/Steps": 40}
@@ -295,9 +297,45 @@ def bodies():
 
 def folds():
     """A hairpin is pressed flat on itself, in space and in the plane, and nothing passes through anything."""
-    fold = simulate(CONTACT / "fold.prm", {"Mesh/Box cubes": "32, 1, 1", "Time/Steps": 90})
+    fold = simulate(CONTACT / "fold.prm", {"Mesh/Box cubes": "32, 1, 1", "Time/Steps": 90,
+                                                 "Probes/Points": "upper: -0.038, 0.01, 0.004; lower: -0.038, 0.01, -0.004"})
     runner.check(max(row["contact"] for row in fold.history()) > 0 and max(row["inverted"] for row in fold.history()) == 0, "no fold")
     runner.check(balance(fold.history()) < 1e-7, f"fold: energies out of balance by {balance(fold.history())}")
+    legs = [0.008 + row["upper.uz"] - row["lower.uz"] for row in fold.probes()]
+    runner.check(0 < min(legs) < 0.0005, f"the legs come as near as {min(legs)} m")
+
+    # In the plane: the upper end of an open ring is pushed into the ring, and takes the lower half along, which nothing else touches.
+    ring = folder / "ring.prm"
+    ring.write_text(f"""subsection Mesh
+  set Shape             = rectangle
+  set Rectangle size    = 1, 0.004
+  set Rectangle squares = 40, 2
+  set Map               = (0.02 + y)*cos(0.3 + 5.68*x); (0.02 + y)*sin(0.3 + 5.68*x); 0
+end
+{SOFT}subsection Constraints
+  set Clamped region = x < -0.0195 && abs(y) < 0.003
+end
+subsection Contact
+  set Bodies = all
+end
+subsection Tool jaw
+  set Shape    = box
+  set Size     = 0.03, 0.01, 0.01
+  set Position = 0.01; 0.0301 - 0.02*t; 0
+end
+subsection Time
+  set Method = implicit backward euler
+  set Step   = 0.01
+  set Steps  = 80
+end
+subsection Probes
+  set Points = upper: 0.0191, 0.0059, 0; lower: 0.0191, -0.0059, 0
+end
+""")
+    closed = simulate(ring, {"Mesh/Order": 1})
+    ends = closed.probes()[-1]
+    runner.check(ends["lower.uy"] < -0.01, f"the lower end of the ring is not pushed down: {ends}")
+    runner.check(balance(closed.history()) < 1e-7, f"ring: energies out of balance by {balance(closed.history())}")
 
 
 globals()[sys.argv[2]]()

@@ -79,8 +79,8 @@ namespace Supple
 
   /**
    * The second derivative of the barrier of a pair, without its negative part [1/m]:
-   * [b'' d' d'^T + b' d'']_+, where two points of a rule meet triangles without b' d'', which
-   * changes the iterations of Newton's method little.
+   * [b'' d' d'^T + b' d'']_+. Points of a rule leave b' d'' out, which hardly changes the number of
+   * Newton's iterations.
    */
   PairMatrix
   barrier_tangent(const ContactPair &pair);

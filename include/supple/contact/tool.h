@@ -54,6 +54,7 @@ namespace Supple
      * @p offset and its reach [m]. */
     double offset;
     double reach; ///< of the barrier [m]
+    Pose pose;
 
     bool
     is_plane() const
@@ -65,8 +66,9 @@ namespace Supple
     Simplex
     simplex(const SurfacePart &part) const;
 
-    /** Between a part of the surface and the whole tool; less than zero within a plane, zero where
-     * the other cores are crossed or contain it [m]. @param least what is of no interest beyond */
+    /** Between a part of the surface and the whole tool; less than zero within a plane, and minus
+     * the offset where another core is crossed or contains it [m].
+     * @param least what is of no interest beyond */
     double
     gap(const Simplex &simplex, double least = std::numeric_limits<double>::max()) const;
 
@@ -76,8 +78,6 @@ namespace Supple
     {
       return pose.turned_back(place - pose.place);
     }
-
-    Pose pose;
   };
 
 

@@ -37,6 +37,14 @@ namespace Supple
     Simplex
     simplex(const SurfacePart &part) const;
 
+    /** Whether triangles have an inside: each edge is that of two, which run along it in opposite
+     * directions. */
+    bool
+    is_closed() const
+    {
+      return closed;
+    }
+
     /** Whether a place is within, of triangles that are closed; never for others. */
     bool
     contains(const Arrow &place) const;

@@ -4,9 +4,6 @@
 #include <supple/contact/tool.h>
 #include <supple/mechanics/body.h>
 
-#include <string>
-#include <vector>
-
 namespace Supple
 {
   /** How much of a plane is drawn: the edge of a square [m]. */
@@ -18,12 +15,6 @@ namespace Supple
    * a plane it is a square about its reference point. @param extent edge of that square [m] */
   TriangleMesh
   drawn_surface(const Tool &tool, double extent);
-
-
-  /** All tools at an instant as a file of VTK's polygons, with their numbers.
-   * @param extent as of drawn_surface() */
-  std::string
-  draw_tools(const std::vector<Tool> &tools, const std::vector<Pose> &poses, double extent);
 } // namespace Supple
 
 #endif

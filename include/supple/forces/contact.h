@@ -28,9 +28,9 @@ namespace Supple
    * gives back.
    *
    * A tool touches up to three nodes of a face at once, which share a cell: the pattern of the
-   * operator stays as it is. Where the surface touches itself, up to six nodes are coupled: as soon
-   * as two of them were not, the pattern gets the pairs of all that is near. The tangent is
-   * definite in all of its kinds.
+   * operator stays as it is. A pair of the surface with itself couples up to six nodes of
+   * different cells: when the pattern lacks two of them, it is made anew, with all pairs of what is
+   * near. The tangent is definite in all of its kinds.
    */
   class Contact : public Force
   {
@@ -161,8 +161,8 @@ namespace Supple
     std::vector<ToolReport>
     reports(const Configuration &configuration) const;
 
-    /** The least gap of the surface to itself, but no more than the reach of the barrier [m]; none
-     * if bodies meet tools alone. Collective. */
+    /** The least gap of the surface to itself [m]; none if nothing of it is within the reach of the
+     * barrier. Collective. */
     std::optional<double>
     own_gap(const Configuration &configuration) const;
 
@@ -189,6 +189,13 @@ namespace Supple
     /** What a user should know of the start, in sentences; collective. */
     std::vector<std::string>
     warnings_of_start(const Configuration &configuration) const;
+
+    /** Of the barrier between bodies [m]. */
+    double
+    reach_between_bodies() const
+    {
+      return reach;
+    }
 
     /** The largest angle by which each tool has turned within a step so far [rad]. */
     const std::vector<double> &
@@ -232,7 +239,7 @@ namespace Supple
     bool
     body_contains(const double *u, const Arrow &place) const;
 
-    /** @throws InputError if the surface crosses itself */
+    /** @throws InputError if the surface crosses itself, or a piece is within another */
     void
     require_no_crossing(const double *u, const ParameterFile &scene) const;
 
@@ -298,8 +305,7 @@ namespace Supple
     std::vector<Stiffness> tangent;
     Friction friction;
     std::vector<double> largest_turns; ///< within a step, of each tool [rad]
-    const SymmetricPattern *pattern = nullptr;
-    Couplings coupled; ///< of the surface with itself, ascending
+    Couplings coupled;                 ///< of the surface with itself, ascending
     bool pattern_is_old = false;
   };
 } // namespace Supple

@@ -114,7 +114,7 @@ namespace Supple
     {
     }
 
-    /** Whether it couples other nodes at times than at others. */
+    /** Whether its couplings change during a run. */
     virtual bool
     couplings_come_and_go() const
     {

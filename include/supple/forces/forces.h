@@ -159,7 +159,7 @@ namespace Supple
     Couplings
     couplings() const;
 
-    /** Whether some force couples other nodes at times than at others. */
+    /** Whether the couplings of some force change during a run. */
     bool
     couplings_come_and_go() const;
 

@@ -70,12 +70,13 @@ namespace Supple
     Slope
     slope(const ImplicitStage &stage);
 
+    /** Zero where the body is held. */
+    void
+    set_contact_force();
+
     /** Whether what is left of the forces is small beside that of contact. Collective. */
     bool
     is_balanced(const ImplicitStage &stage);
-
-    void
-    iterate(ImplicitStage &stage);
 
     /** For messages: what is nearest to the body, and how near. Collective. */
     std::string
