@@ -13,6 +13,7 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <system_error>
 
 namespace Supple
 {
@@ -106,7 +107,8 @@ namespace Supple
     if (ending != ".stl" && ending != ".obj" && ending != ".ply")
       throw InputError(origin + ": '" + file +
                        "' is no surface of triangles that can be read: .stl, .obj or .ply.");
-    if (!std::filesystem::is_regular_file(file))
+    std::error_code unknown;
+    if (!std::filesystem::is_regular_file(file, unknown))
       throw InputError(origin + ": there is no file '" + file + "'.");
     std::vector<double> corners;
     try

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <filesystem>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 namespace Supple
@@ -143,10 +144,12 @@ namespace Supple
     std::vector<SerialMesh>
     generate_or_read(const MeshParameters &parameters, const ParameterFile &scene)
     {
+      const auto whole_name = std::filesystem::path(scene.folder()) / parameters.file;
+      std::error_code unknown; // such as that of a name that is too long
       std::vector<SerialMesh> meshes;
       if (parameters.shape != MeshParameters::Shape::file)
         meshes.push_back(generate(parameters));
-      else if (std::filesystem::exists(std::filesystem::path(scene.folder()) / parameters.file))
+      else if (std::filesystem::exists(whole_name, unknown)) // its name may have commas
         meshes.push_back(read_file(parameters.file, parameters.scale, scene));
       else
         for (const std::string &file : Utilities::split_string_list(parameters.file, ','))
