@@ -172,7 +172,8 @@ namespace Supple
   }
 
 
-  /** By the number of faces that a ray crosses; it is slanted so that it meets no edge of a box. */
+  /** By how often a ray leaves more than it enters, so that shells may overlap; it is slanted so that
+   * it meets no edge of a box. */
   bool
   ToolShape::contains(const Arrow &place) const
   {
@@ -185,10 +186,11 @@ namespace Supple
     here.take(end);
     std::vector<unsigned int> numbers;
     find_faces(here, numbers);
-    unsigned int n_crossed = 0;
+    int n_left = 0;
     for (const unsigned int face : numbers)
-      n_crossed += goes_through(simplex(parts.triangles[face]).x, place, end);
-    return n_crossed % 2 == 1;
+      if (const Corners x = simplex(parts.triangles[face]).x; goes_through(x, place, end))
+        n_left += cross_product_3d(x[1] - x[0], x[2] - x[0]) * (end - place) > 0. ? 1 : -1;
+    return n_left != 0;
   }
 
 

@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 #include <set>
+#include <vector>
 
 namespace Supple
 {
@@ -36,6 +38,34 @@ namespace Supple
     center(const SurfacePart &part)
     {
       return {{1. / part.n, 1. / part.n, 1. / part.n}};
+    }
+
+
+    /** One point of each connected part of a tool's core; none of a plane. What crosses the surface
+     * of the body is found anyway. */
+    std::vector<unsigned int>
+    points_of_shells(const PlacedTool &tool)
+    {
+      if (tool.is_plane())
+        return {};
+      std::vector<unsigned int> first(tool.points.size()); // a smaller point of the same shell
+      std::iota(first.begin(), first.end(), 0);
+      const auto root = [&first](unsigned int point) {
+        while (first[point] != point)
+          point = first[point] = first[first[point]];
+        return point;
+      };
+      for (const SurfacePart &face : tool.shape->parts.faces())
+        for (unsigned int v = 1; v < face.n; ++v)
+          {
+            const auto [less, more] = std::minmax({root(face.nodes[0]), root(face.nodes[v])});
+            first[more]             = less;
+          }
+      std::vector<unsigned int> points;
+      for (unsigned int point = 0; point < first.size(); ++point)
+        if (root(point) == point)
+          points.push_back(point);
+      return points;
     }
 
 
@@ -138,9 +168,9 @@ namespace Supple
   void
   Contact::require_clear(const Configuration &configuration, const ParameterFile &scene) const
   {
-    constexpr std::size_t most_points = 16; // of a tool; what crosses the surface is found anyway
-
     const GhostValues u(configuration.displacement());
+    // no point is on a face between two cells, where it would be in neither
+    const Arrow off_faces = 1e-7 * body.mesh.diameter() * Arrow({0.31, 0.53, 0.79});
     for (const Tool &tool : tools)
       {
         const PlacedTool placed = tool.placed(tool.pose(configuration.passage));
@@ -153,10 +183,10 @@ namespace Supple
           throw InputError(words + depth + "in the body, at " +
                            Selection(body).vertex_in_words(place.vertex) +
                            ". It must be outside; it may touch the surface.");
-        unsigned int within     = 0;
-        const std::size_t every = placed.points.size() / most_points + 1;
-        for (std::size_t k = 0; !placed.is_plane() && k < placed.points.size(); k += every)
-          within = std::max<unsigned int>(within, body_contains(u.data(), placed.points[k]));
+        unsigned int within = 0;
+        for (const unsigned int point : points_of_shells(placed))
+          within = std::max<unsigned int>(
+            within, body_contains(u.data(), placed.points[point] + off_faces));
         if (Utilities::MPI::max(within, body.mesh.communicator) > 0)
           throw InputError(words + "wholly within the body, near " +
                            Selection(body).vertex_in_words(place.vertex) +

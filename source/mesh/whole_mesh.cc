@@ -167,6 +167,8 @@ namespace Supple
         Utilities::split_string_list(parameters.piece_maps, '|');
       std::vector<SerialMesh> meshes = generate_or_read(parameters, scene);
       const std::size_t n            = std::max(maps.size(), meshes.size());
+      if (!parameters.piece_maps.empty() && Utilities::trim(parameters.piece_maps).back() == '|')
+        throw InputError(origin + ": there is no map after the last |.");
       if (meshes.size() > 1 && !maps.empty() && maps.size() != meshes.size())
         throw InputError(origin + ": there are " + std::to_string(maps.size()) + " maps for " +
                          std::to_string(meshes.size()) +

@@ -115,6 +115,7 @@ refused({"Contact/Bodies": "all", "Time/Method": "ida"}, "bodies that meet each 
 refused({"Contact/Bodies": "all", "Contact/Friction": 0.1, "Time/Method": "trbdf2"}, "Contact/Friction", "of first order")
 warned({"Mesh/Piece maps": "x; y; z | x; y; z + 0.10001", "Contact/Bodies": "pieces"}, "At the start bodies are 1e-05 m apart")
 SCENE.write_text(SOLID)
+refused({"Mesh/Piece maps": "x; y; z |"}, "no map after the last")
 status, _, error = runner.run(SCENE, "--output", folder / "results", *runner.overrides({"Contact/Bodies": "all"}), ranks=2)
 runner.check(status == 1 and "on one process alone" in error, f"{status}: {error}")
 
