@@ -172,8 +172,8 @@ namespace Supple
   }
 
 
-  /** By how often a ray leaves more than it enters, so that shells may overlap; it is slanted so that
-   * it meets no edge of a box. */
+  /** By how often a ray leaves more than it enters, so that shells may overlap; it is slanted so
+   * that it meets no edge of a box. */
   bool
   ToolShape::contains(const Arrow &place) const
   {

@@ -185,8 +185,9 @@ namespace Supple
                            ". It must be outside; it may touch the surface.");
         unsigned int within = 0;
         for (const unsigned int point : points_of_shells(placed))
-          within = std::max<unsigned int>(
-            within, body_contains(u.data(), placed.points[point] + off_faces));
+          within =
+            std::max<unsigned int>(within,
+                                   body_contains(u.data(), placed.points[point] + off_faces));
         if (Utilities::MPI::max(within, body.mesh.communicator) > 0)
           throw InputError(words + "wholly within the body, near " +
                            Selection(body).vertex_in_words(place.vertex) +

@@ -17,7 +17,8 @@ namespace Supple
         for (const auto &[other, same] : names)
           if (same == id && other != name)
             throw InputError(origin + ": the id " + std::to_string(id) + " is called " + other +
-                             " in one file and " + name + " in another. Give it one name in all, "
+                             " in one file and " + name +
+                             " in another. Give it one name in all, "
                              "or each its own id.");
       for (const auto &[name, id] : more)
         if (const auto [place, is_new] = names.emplace(name, id); !is_new && place->second != id)
@@ -43,7 +44,7 @@ namespace Supple
     if (piece.middles.empty() != whole.middles.empty())
       throw InputError(origin + ": all pieces must have cells of one order.");
     const unsigned int first = whole.vertices.size(), first_cell = whole.cells.size();
-    const auto shift         = [first](auto &vertices, const std::size_t n) { // those that count
+    const auto shift = [first](auto &vertices, const std::size_t n) { // those that count
       std::for_each(vertices.begin(), vertices.begin() + n, [first](unsigned int &vertex) {
         vertex += first;
       });
