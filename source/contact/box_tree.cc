@@ -21,6 +21,14 @@ namespace Supple
 
 
   void
+  Box::take(const Simplex &simplex)
+  {
+    for (unsigned int v = 0; v < simplex.n; ++v)
+      take(simplex.x[v]);
+  }
+
+
+  void
   Box::grow(const double distance)
   {
     for (unsigned int i = 0; i < 3; ++i)

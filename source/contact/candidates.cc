@@ -17,12 +17,9 @@ namespace Supple
       box() const
       {
         Box box;
-        for (unsigned int v = 0; v < start.n; ++v)
-          {
-            box.take(start.x[v]);
-            if (moves)
-              box.take(end.x[v]);
-          }
+        box.take(start);
+        if (moves)
+          box.take(end);
         return box;
       }
 
@@ -40,14 +37,10 @@ namespace Supple
     MovedSimplex
     moved(const ContactSurface &surface, const SurfaceMotion &motion, const SurfacePart &part)
     {
-      MovedSimplex moved;
-      moved.start = moved.end = surface.simplex(part, motion.u);
-      moved.moves             = motion.way;
-      if (motion.way)
-        for (unsigned int v = 0; v < part.n; ++v)
-          for (unsigned int i = 0; i < 3; ++i)
-            moved.end.x[v][i] += motion.way[3 * part.nodes[v] + i];
-      return moved;
+      const Simplex start = surface.simplex(part, motion.u);
+      if (!motion.way)
+        return {start, start, false};
+      return {start, start.moved(ContactSurface::values(part, motion.way), 1.), true};
     }
 
 
@@ -55,13 +48,7 @@ namespace Supple
     double
     lower_bound(const Simplex &one, const Simplex &other)
     {
-      const auto center = [](const Simplex &simplex) {
-        Arrow center;
-        for (unsigned int v = 0; v < simplex.n; ++v)
-          center += simplex.x[v] / simplex.n;
-        return center;
-      };
-      const Arrow here = center(one), there = center(other);
+      const Arrow here = one.center(), there = other.center();
       double radius = 0., other_radius = 0.;
       for (unsigned int v = 0; v < one.n; ++v)
         radius = std::max(radius, (one.x[v] - here).norm_square());
@@ -185,7 +172,7 @@ namespace Supple
       MovedSimplex
       of_core(const SurfacePart &part) const
       {
-        const Simplex simplex = tool.shape->simplex(part);
+        const Simplex simplex = part.at(tool.shape->points);
         return {simplex, simplex, false};
       }
 

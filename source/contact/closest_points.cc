@@ -127,6 +127,26 @@ namespace Supple
   }
 
 
+  Arrow
+  Simplex::center() const
+  {
+    Arrow center;
+    for (unsigned int v = 0; v < n; ++v)
+      center += x[v] / n;
+    return center;
+  }
+
+
+  Simplex
+  Simplex::moved(const Corners &way, const double part) const
+  {
+    Simplex there = *this;
+    for (unsigned int v = 0; v < n; ++v)
+      there.x[v] += part * way[v];
+    return there;
+  }
+
+
   namespace
   {
     NearestPlaces

@@ -63,7 +63,7 @@ namespace Supple
       Simplex
       other_simplex(const SurfacePart &part) const
       {
-        return tool ? tool->simplex(part) : simplex(part);
+        return tool ? part.at(tool->points) : simplex(part);
       }
 
       /** A point of the part and the nearest one of the other, which may be the whole plane. */

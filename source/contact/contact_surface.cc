@@ -114,9 +114,29 @@ namespace Supple
   {
     Simplex simplex{part.n, {}};
     for (unsigned int v = 0; v < part.n; ++v)
-      for (unsigned int i = 0; i < 3; ++i)
-        simplex.x[v][i] = body.positions[part.nodes[v]][i] + u[3 * part.nodes[v] + i];
+      simplex.x[v] = place(part.nodes[v], u);
     return simplex;
+  }
+
+
+  Corners
+  ContactSurface::values(const SurfacePart &part, const double *const values)
+  {
+    Corners corners;
+    for (unsigned int v = 0; v < part.n; ++v)
+      for (unsigned int i = 0; i < 3; ++i)
+        corners[v][i] = values[3 * part.nodes[v] + i];
+    return corners;
+  }
+
+
+  Arrow
+  ContactSurface::place(const unsigned int node, const double *const u) const
+  {
+    Arrow place;
+    for (unsigned int i = 0; i < 3; ++i)
+      place[i] = body.positions[node][i] + u[3 * node + i];
+    return place;
   }
 
 

@@ -47,7 +47,7 @@ namespace Supple
     for (const Touch &touch : touches)
       {
         const auto &[now, other] = places(touch.pair, touch.place);
-        const Arrow way          = now - touch.place - (other - touch.place);
+        const Arrow way          = now - other;
         const Arrow &n           = touch.pair.normal;
         slips.push_back(
           {&touch.pair, touch.limit, touch.place, way - (n * way) * n, slip_resolution * duration});

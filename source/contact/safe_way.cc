@@ -32,15 +32,6 @@ namespace Supple
     }
 
 
-    Simplex
-    moved(Simplex x, const Corners &way, const double part)
-    {
-      for (unsigned int v = 0; v < x.n; ++v)
-        x.x[v] += part * way[v];
-      return x;
-    }
-
-
     /** No shorter than the change of the gap over the whole way. The motion that the surface and
      * the tool have in common changes nothing. */
     double
@@ -79,9 +70,9 @@ namespace Supple
     {
       if (!of_core)
         return tool.placed(pose).gap(x);
-      Simplex there{of_core->n, {}};
+      Simplex there = of_core->at(tool.shape->points);
       for (unsigned int v = 0; v < there.n; ++v)
-        there.x[v] = pose.place + pose.turned(tool.shape->points[of_core->nodes[v]]);
+        there.x[v] = pose.carried(there.x[v]);
       return distance(x, there) - tool.offset;
     }
 
@@ -125,7 +116,7 @@ namespace Supple
     return safe_part_of(
       [&](const double part) {
         const Pose pose = part == 0. ? motion.from : between(motion.from, motion.to, part);
-        return gap_of(moved(x, way, part), tool, of_core, pose);
+        return gap_of(x.moved(way, part), tool, of_core, pose);
       },
       largest_change(x, way, tool, of_core, motion));
   }
@@ -136,9 +127,7 @@ namespace Supple
   {
     const Arrow common = 0.5 * (mean_of(x.n, way) + mean_of(other.n, other_way));
     return safe_part_of(
-      [&](const double part) {
-        return distance(moved(x, way, part), moved(other, other_way, part));
-      },
+      [&](const double part) { return distance(x.moved(way, part), other.moved(other_way, part)); },
       longest(x.n, way, common) + longest(other.n, other_way, common));
   }
 } // namespace Supple

@@ -5,6 +5,16 @@
 
 namespace Supple
 {
+  Simplex
+  SurfacePart::at(const std::vector<Arrow> &places) const
+  {
+    Simplex simplex{n, {}};
+    for (unsigned int v = 0; v < n; ++v)
+      simplex.x[v] = places[nodes[v]];
+    return simplex;
+  }
+
+
   bool
   SurfacePart::has_node(const unsigned int node) const
   {

@@ -57,7 +57,7 @@ namespace Supple
   Arrow
   Pose::place_with(const Pose &other, const Arrow &point) const
   {
-    return other.place + other.turned(turned_back(point - place));
+    return other.carried(in_frame(point));
   }
 
 
@@ -233,18 +233,8 @@ namespace Supple
       }
     else
       for (const Arrow &point : shape->points)
-        placed.points.push_back(pose.place + pose.turned(point));
+        placed.points.push_back(pose.carried(point));
     return placed;
-  }
-
-
-  Simplex
-  PlacedTool::simplex(const SurfacePart &part) const
-  {
-    Simplex simplex{part.n, {}};
-    for (unsigned int v = 0; v < part.n; ++v)
-      simplex.x[v] = points[part.nodes[v]];
-    return simplex;
   }
 
 
@@ -259,7 +249,7 @@ namespace Supple
       }
     Simplex here = simplex;
     for (unsigned int v = 0; v < simplex.n; ++v)
-      here.x[v] = in_frame(simplex.x[v]);
+      here.x[v] = pose.in_frame(simplex.x[v]);
     if (shape->contains(here.x[0]))
       return -offset;
     return std::min(least, shape->distance(here, least + offset) - offset);

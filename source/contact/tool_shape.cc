@@ -15,16 +15,6 @@ namespace Supple
     constexpr double straight = -1. + 1e-12;
 
     constexpr double endless = std::numeric_limits<double>::infinity();
-
-
-    Box
-    box_of(const Simplex &simplex)
-    {
-      Box box;
-      for (unsigned int v = 0; v < simplex.n; ++v)
-        box.take(simplex.x[v]);
-      return box;
-    }
   } // namespace
 
 
@@ -142,23 +132,13 @@ namespace Supple
     parts.represent();
     std::vector<Box> boxes;
     for (const SurfacePart &face : parts.faces())
-      boxes.push_back(box_of(simplex(face)));
+      boxes.emplace_back().take(face.at(points));
     tree = std::make_shared<BoxTree>(boxes);
     for (const Arrow &place : points)
       {
         bounds.take(place);
         lever = std::max(lever, place.norm());
       }
-  }
-
-
-  Simplex
-  ToolShape::simplex(const SurfacePart &part) const
-  {
-    Simplex simplex{part.n, {}};
-    for (unsigned int v = 0; v < part.n; ++v)
-      simplex.x[v] = points[part.nodes[v]];
-    return simplex;
   }
 
 
@@ -188,7 +168,7 @@ namespace Supple
     find_faces(here, numbers);
     int n_left = 0;
     for (const unsigned int face : numbers)
-      if (const Corners x = simplex(parts.triangles[face]).x; goes_through(x, place, end))
+      if (const Corners x = parts.triangles[face].at(points).x; goes_through(x, place, end))
         n_left += cross_product_3d(x[1] - x[0], x[2] - x[0]) * (end - place) > 0. ? 1 : -1;
     return n_left != 0;
   }
@@ -197,9 +177,10 @@ namespace Supple
   double
   ToolShape::distance(const Simplex &other, double least) const
   {
-    if (!(box_of(other).distance(bounds) < least))
+    Box box;
+    box.take(other);
+    if (!(box.distance(bounds) < least))
       return least;
-    Box box = box_of(other);
     if (least < std::numeric_limits<double>::max())
       box.grow(least);
     else
@@ -208,7 +189,7 @@ namespace Supple
     std::vector<unsigned int> numbers;
     find_faces(box, numbers);
     for (const unsigned int face : numbers)
-      least = std::min(least, Supple::distance(other, simplex(parts.faces()[face])));
+      least = std::min(least, Supple::distance(other, parts.faces()[face].at(points)));
     return least;
   }
 } // namespace Supple

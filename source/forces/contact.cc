@@ -228,16 +228,13 @@ namespace Supple
   {
     if (!friction.any() || passage.to == passage.from) // nothing slips in no time
       return {};
-    std::vector<std::array<Pose, 2>> poses;
-    for (const Tool &tool : tools)
-      poses.push_back({{tool.pose(passage.from), tool.pose(passage)}});
+    const std::vector<Pose> from = poses(at(passage.from)), now = poses(passage);
     return friction.slips(
       [&](const ContactPair &pair, const Arrow &touched) {
         const Arrow place = pair.place_of_nodes(body, u);
         if (pair.other)
           return std::make_pair(place, touched);
-        const auto &[from, now] = poses[pair.tool];
-        return std::make_pair(place, from.place_with(now, touched));
+        return std::make_pair(place, from[pair.tool].place_with(now[pair.tool], touched));
       },
       passage.to - passage.from);
   }
@@ -329,20 +326,21 @@ namespace Supple
 
 
   void
-  Contact::renew_couplings(const double *const u, const Passage &passage)
+  Contact::renew_couplings(const std::vector<ContactPair> &pairs,
+                           const std::vector<Friction::Slip> &slips,
+                           const Candidates &near)
   {
     Couplings needed;
-    for (const ContactPair &pair : pairs(u, passage))
+    for (const ContactPair &pair : pairs)
       if (pair.other)
         couple(needed, *pair.part, *pair.other);
-    for (const Friction::Slip &slip : slips(u, passage))
+    for (const Friction::Slip &slip : slips)
       if (slip.pair->other)
         couple(needed, *slip.pair->part, *slip.pair->other);
     sort_once(needed);
     if (std::includes(coupled.begin(), coupled.end(), needed.begin(), needed.end()))
       return;
-    const Candidates &near = *search.find(u, poses(passage)).own;
-    coupled                = needed; // of friction, what touched at the start
+    coupled = needed; // of friction, what touched at the start
     for (const Candidate &pair : near.vertex_face)
       couple(coupled, surface.vertices[pair.one], surface.faces()[pair.other]);
     for (const Candidate &pair : near.edge_edge)
@@ -357,13 +355,16 @@ namespace Supple
   void
   Contact::update_tangent(Tangent, const Configuration &configuration, double, double)
   {
+    const Passage &passage = configuration.passage;
     const GhostValues u(configuration.displacement());
-    if (bodies != ContactParameters::Bodies::tools)
-      renew_couplings(u.data(), configuration.passage);
+    const std::vector<ContactPair> near     = pairs(u.data(), passage);
+    const std::vector<Friction::Slip> slide = slips(u.data(), passage);
+    if (couplings_come_and_go())
+      renew_couplings(near, slide, *search.find(u.data(), poses(passage)).own);
     tangent.clear();
-    for (const ContactPair &pair : pairs(u.data(), configuration.passage))
+    for (const ContactPair &pair : near)
       tangent.push_back({pair.n, pair.nodes, factor(pair) * barrier_tangent(pair)});
-    for (const Friction::Slip &slip : slips(u.data(), configuration.passage))
+    for (const Friction::Slip &slip : slide)
       tangent.push_back({slip.pair->n, slip.pair->nodes, stiffness_of(slip)});
   }
 
@@ -417,12 +418,8 @@ namespace Supple
   {
     const Passage &passage = configuration.passage;
     const GhostValues u(configuration.displacement());
-    std::vector<Pose> now, next;
-    for (const Tool &tool : tools)
-      {
-        now.push_back(tool.pose(passage));
-        next.push_back(tool.pose(Passage{passage.from, passage.to, part}));
-      }
+    const std::vector<Pose> from = poses(at(passage.from)), now = poses(passage);
+    const std::vector<Pose> next = poses({passage.from, passage.to, part});
     for (const ContactPair &pair : pairs(u.data(), passage))
       {
         if (pair.other)
@@ -436,9 +433,9 @@ namespace Supple
         const ContactPair &pair = *slip.pair;
         if (pair.other)
           continue;
-        const Pose from = tools[pair.tool].pose(passage.from);
-        const Arrow way = from.place_with(next[pair.tool], slip.start) -
-                          from.place_with(now[pair.tool], slip.start);
+        const Pose &start = from[pair.tool];
+        const Arrow way   = start.place_with(next[pair.tool], slip.start) -
+                          start.place_with(now[pair.tool], slip.start);
         spread(pair, slip.stiffness() * way, f);
       }
   }
@@ -478,46 +475,58 @@ namespace Supple
     std::vector<ToolMotion> motions;
     for (const Tool &tool : tools)
       motions.push_back({tool.pose(passage), tool.pose(Passage{passage.from, passage.to, part})});
-    const AllCandidates &candidates = search.find({u.data(), du.data()}, motions);
-    const auto way_of               = [&](const SurfacePart &piece) {
-      Corners way;
-      for (unsigned int v = 0; v < piece.n; ++v)
-        for (unsigned int i = 0; i < 3; ++i)
-          way[v][i] = du.data()[3 * piece.nodes[v] + i];
-      return way;
-    };
-    double safe = 1.;
+    const SurfaceMotion motion{u.data(), du.data()};
+    const AllCandidates &candidates = search.find(motion, motions);
+
+    double safe = safe_part_of_bodies(motion, *candidates.own);
     for (unsigned int t = 0; t < tools.size(); ++t)
-      {
-        const auto go = [&](const SurfacePart &piece, const SurfacePart *of_core) {
-          safe = std::min(safe,
-                          Supple::safe_part(surface.simplex(piece, u.data()),
-                                            way_of(piece),
-                                            tools[t],
-                                            of_core,
-                                            motions[t]));
-        };
-        const Candidates &near         = candidates.of_tools[t];
-        const SurfaceParts *const core = tools[t].shape ? &tools[t].shape->parts : nullptr;
-        for (const auto &[one, other] : near.vertex_face)
-          go(surface.vertices[one], core ? &core->faces()[other] : nullptr);
-        for (const auto &[one, other] : near.face_vertex)
-          go(surface.faces()[one], &core->vertices[other]);
-        for (const auto &[one, other] : near.edge_edge)
-          go(surface.edges[one], &core->edges[other]);
-      }
+      safe = std::min(safe, safe_part_at(tools[t], motion, motions[t], candidates.of_tools[t]));
+    return Utilities::MPI::min(safe, body.mesh.communicator);
+  }
+
+
+  double
+  Contact::safe_part_at(const Tool &tool,
+                        const SurfaceMotion &motion,
+                        const ToolMotion &of_tool,
+                        const Candidates &candidates) const
+  {
+    double safe   = 1.;
+    const auto go = [&](const SurfacePart &part, const SurfacePart *const of_core) {
+      safe = std::min(safe,
+                      Supple::safe_part(surface.simplex(part, motion.u),
+                                        ContactSurface::values(part, motion.way),
+                                        tool,
+                                        of_core,
+                                        of_tool));
+    };
+    const SurfaceParts *const core = tool.shape ? &tool.shape->parts : nullptr;
+    for (const auto &[one, other] : candidates.vertex_face)
+      go(surface.vertices[one], core ? &core->faces()[other] : nullptr);
+    for (const auto &[one, other] : candidates.face_vertex)
+      go(surface.faces()[one], &core->vertices[other]);
+    for (const auto &[one, other] : candidates.edge_edge)
+      go(surface.edges[one], &core->edges[other]);
+    return safe;
+  }
+
+
+  double
+  Contact::safe_part_of_bodies(const SurfaceMotion &motion, const Candidates &candidates) const
+  {
+    double safe   = 1.;
     const auto go = [&](const SurfacePart &one, const SurfacePart &other) {
       safe = std::min(safe,
-                      Supple::safe_part(surface.simplex(one, u.data()),
-                                        way_of(one),
-                                        surface.simplex(other, u.data()),
-                                        way_of(other)));
+                      Supple::safe_part(surface.simplex(one, motion.u),
+                                        ContactSurface::values(one, motion.way),
+                                        surface.simplex(other, motion.u),
+                                        ContactSurface::values(other, motion.way)));
     };
-    for (const auto &[one, other] : candidates.own->vertex_face)
+    for (const auto &[one, other] : candidates.vertex_face)
       go(surface.vertices[one], surface.faces()[other]);
-    for (const auto &[one, other] : candidates.own->edge_edge)
+    for (const auto &[one, other] : candidates.edge_edge)
       go(surface.edges[one], surface.edges[other]);
-    return Utilities::MPI::min(safe, body.mesh.communicator);
+    return safe;
   }
 
 
@@ -543,12 +552,7 @@ namespace Supple
   {
     if (weight == 0.)
       return;
-    std::vector<Pose> first, last;
-    for (const Tool &tool : tools)
-      {
-        first.push_back(tool.pose(step.from));
-        last.push_back(tool.pose(step.to));
-      }
+    const std::vector<Pose> first = poses(at(step.from)), last = poses(at(step.to));
     const std::vector<Pose> &now = at_end ? last : first;
     const GhostValues u(displacement);
     for (const ContactPair &pair : pairs(u.data(), at(at_end ? step.to : step.from)))
@@ -594,8 +598,9 @@ namespace Supple
     std::vector<ToolReport> reports(tools.size());
     std::vector<double> sums(n * tools.size(), 0.), all(sums.size());
     std::vector<double> gaps(tools.size(), far_away);
+    const std::vector<Pose> now = poses(passage);
     for (unsigned int t = 0; t < tools.size(); ++t)
-      reports[t].place = tools[t].pose(passage).place;
+      reports[t].place = now[t].place;
     const auto add = [&](const unsigned int tool, const Arrow &place, const Arrow &force) {
       const Arrow torque = cross_product_3d(place - Arrow(reports[tool].place), force);
       for (unsigned int i = 0; i < 3; ++i)
@@ -634,7 +639,7 @@ namespace Supple
         reports[t].area         = sum[6];
         reports[t].gap          = Utilities::MPI::min(gaps[t], body.mesh.communicator);
         if (reports[t].gap == far_away)
-          reports[t].gap = nearest(u.data(), tools[t].placed(tools[t].pose(passage))).gap;
+          reports[t].gap = nearest(u.data(), tools[t].placed(now[t])).gap;
         reports[t].depth = std::max(0., tools[t].reach - reports[t].gap);
       }
     return reports;

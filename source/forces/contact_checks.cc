@@ -33,14 +33,6 @@ namespace Supple
     }
 
 
-    /** Weights of the corners. */
-    std::array<double, 3>
-    center(const SurfacePart &part)
-    {
-      return {{1. / part.n, 1. / part.n, 1. / part.n}};
-    }
-
-
     /** One point of each connected part of a tool's core; none of a plane. What crosses the surface
      * of the body is found anyway. */
     std::vector<unsigned int>
@@ -134,14 +126,11 @@ namespace Supple
   {
     constexpr double round_off = 1e-9; // what lies on the surface is outside
 
-    const auto corner = [&](const unsigned int node) {
-      return Arrow(body.position(node)) + Arrow({u[3 * node], u[3 * node + 1], u[3 * node + 2]});
-    };
     for (const auto &nodes : body.cell_nodes)
       {
         std::array<Arrow, 4> x;
         for (unsigned int v = 0; v < 4; ++v)
-          x[v] = corner(nodes[v]);
+          x[v] = surface.place(nodes[v], u);
         Arrow inside = place;
         if (body.mesh.section.plane()) // a corner stands twice: triangles reach along z
           {
@@ -165,35 +154,52 @@ namespace Supple
   }
 
 
-  void
-  Contact::require_clear(const Configuration &configuration, const ParameterFile &scene) const
+  std::vector<std::string>
+  Contact::check_start(const Configuration &configuration, const ParameterFile &scene) const
   {
     const GhostValues u(configuration.displacement());
-    // no point is on a face between two cells, where it would be in neither
-    const Arrow off_faces = 1e-7 * body.mesh.diameter() * Arrow({0.31, 0.53, 0.79});
+    std::vector<std::string> warnings;
     for (const Tool &tool : tools)
       {
         const PlacedTool placed = tool.placed(tool.pose(configuration.passage));
         const Nearest place     = nearest(u.data(), placed);
-        const std::string words = scene.origin(tool.parameters.section() + "/Position") +
-                                  ": at the start the tool " + tool.parameters.name + " is ";
-        const std::string depth =
-          placed.offset == 0. ? "" : digits(placed.reach - place.gap, 3) + " m deep ";
-        if (place.gap <= 0.)
-          throw InputError(words + depth + "in the body, at " +
-                           Selection(body).vertex_in_words(place.vertex) +
-                           ". It must be outside; it may touch the surface.");
-        unsigned int within = 0;
-        for (const unsigned int point : points_of_shells(placed))
-          within =
-            std::max<unsigned int>(within,
-                                   body_contains(u.data(), placed.points[point] + off_faces));
-        if (Utilities::MPI::max(within, body.mesh.communicator) > 0)
-          throw InputError(words + "wholly within the body, near " +
-                           Selection(body).vertex_in_words(place.vertex) +
-                           ". It must be outside; it may touch the surface.");
+        require_clear(u.data(), placed, tool, place, scene);
+        add_warnings(warnings, placed, tool, place);
       }
     require_no_crossing(u.data(), scene);
+    if (const std::optional<double> gap = own_gap(configuration);
+        gap.value_or(reach) < reach * (1. - 1e-6))
+      warnings.push_back("At the start bodies are " + digits(*gap, 3) +
+                         " m apart, less than the reach of the barrier of " + digits(reach, 3) +
+                         " m, and push each other away.");
+    return warnings;
+  }
+
+
+  void
+  Contact::require_clear(const double *const u,
+                         const PlacedTool &placed,
+                         const Tool &tool,
+                         const Nearest &nearest,
+                         const ParameterFile &scene) const
+  {
+    // no point is on a face between two cells, where it would be in neither
+    const Arrow off_faces   = 1e-7 * body.mesh.diameter() * Arrow({0.31, 0.53, 0.79});
+    const std::string words = scene.origin(tool.parameters.section() + "/Position") +
+                              ": at the start the tool " + tool.parameters.name + " is ";
+    const std::string depth =
+      placed.offset == 0. ? "" : digits(placed.reach - nearest.gap, 3) + " m deep ";
+    if (nearest.gap <= 0.)
+      throw InputError(words + depth + "in the body, at " +
+                       Selection(body).vertex_in_words(nearest.vertex) +
+                       ". It must be outside; it may touch the surface.");
+    unsigned int within = 0;
+    for (const unsigned int point : points_of_shells(placed))
+      within = std::max<unsigned int>(within, body_contains(u, placed.points[point] + off_faces));
+    if (Utilities::MPI::max(within, body.mesh.communicator) > 0)
+      throw InputError(words + "wholly within the body, near " +
+                       Selection(body).vertex_in_words(nearest.vertex) +
+                       ". It must be outside; it may touch the surface.");
   }
 
 
@@ -205,7 +211,7 @@ namespace Supple
     std::set<unsigned int> pieces;
     for (const SurfacePart &face : surface.faces())
       if (pieces.insert(body.mesh.parts->parts[face.nodes[0]]).second &&
-          body_contains(u, surface.simplex(face, u).place(center(face))))
+          body_contains(u, surface.simplex(face, u).center()))
         throw InputError(scene.origin("Contact/Bodies") +
                          ": at the start a piece of the body is within another, at " +
                          Selection(body).vertex_in_words(body.serial_vertex[face.nodes[0]]) + ".");
@@ -226,38 +232,28 @@ namespace Supple
   }
 
 
-  std::vector<std::string>
-  Contact::warnings_of_start(const Configuration &configuration) const
+  void
+  Contact::add_warnings(std::vector<std::string> &warnings,
+                        const PlacedTool &placed,
+                        const Tool &tool,
+                        const Nearest &nearest)
   {
-    const GhostValues u(configuration.displacement());
-    std::vector<std::string> warnings;
-    for (const Tool &tool : tools)
-      {
-        const PlacedTool placed = tool.placed(tool.pose(configuration.passage));
-        const Nearest place     = nearest(u.data(), placed);
-        const double radius     = tool.parameters.radius;
-        const bool is_round     = tool.parameters.shape == ToolParameters::Shape::sphere ||
-                              tool.parameters.shape == ToolParameters::Shape::capsule;
-        if (is_round && radius < place.edge)
-          warnings.push_back(
-            "The tool " + tool.parameters.name + ", with a radius of " + digits(radius, 3) +
-            " m, is thinner than the cells that it is next to, with edges of " +
-            digits(place.edge, 3) + " m: its force depends on the mesh. Edges of less than " +
-            digits(radius, 3) + " m would do.");
-        if (tool.shape && !tool.shape->parts.triangles.empty() && !tool.shape->is_closed())
-          warnings.push_back("The surface of the tool " + tool.parameters.name +
-                             " is not closed, or its triangles do not all turn the same way: "
-                             "whether the body begins within it is not known.");
-        if (place.gap < placed.reach * (1. - 1e-6))
-          warnings.push_back("At the start the tool " + tool.parameters.name + " is " +
-                             digits(placed.reach - place.gap, 3) +
-                             " m deep in the body, and pushes it away.");
-      }
-    if (const std::optional<double> gap = own_gap(configuration);
-        gap.value_or(reach) < reach * (1. - 1e-6))
-      warnings.push_back("At the start bodies are " + digits(*gap, 3) +
-                         " m apart, less than the reach of the barrier of " + digits(reach, 3) +
-                         " m, and push each other away.");
-    return warnings;
+    const double radius = tool.parameters.radius;
+    const bool is_round = tool.parameters.shape == ToolParameters::Shape::sphere ||
+                          tool.parameters.shape == ToolParameters::Shape::capsule;
+    if (is_round && radius < nearest.edge)
+      warnings.push_back(
+        "The tool " + tool.parameters.name + ", with a radius of " + digits(radius, 3) +
+        " m, is thinner than the cells that it is next to, with edges of " +
+        digits(nearest.edge, 3) + " m: its force depends on the mesh. Edges of less than " +
+        digits(radius, 3) + " m would do.");
+    if (tool.shape && !tool.shape->parts.triangles.empty() && !tool.shape->is_closed())
+      warnings.push_back("The surface of the tool " + tool.parameters.name +
+                         " is not closed, or its triangles do not all turn the same way: "
+                         "whether the body begins within it is not known.");
+    if (nearest.gap < placed.reach * (1. - 1e-6))
+      warnings.push_back("At the start the tool " + tool.parameters.name + " is " +
+                         digits(placed.reach - nearest.gap, 3) +
+                         " m deep in the body, and pushes it away.");
   }
 } // namespace Supple

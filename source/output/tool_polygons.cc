@@ -16,7 +16,7 @@ namespace Supple
       {
         const TriangleMesh mesh = drawn_surface(tools[t], extent);
         for (const auto &place : mesh.points)
-          points << poses[t].place + poses[t].turned(Arrow({place[0], place[1], place[2]})) << '\n';
+          points << poses[t].carried(Arrow({place[0], place[1], place[2]})) << '\n';
         for (const auto &corners : mesh.triangles)
           {
             for (const unsigned int corner : corners)

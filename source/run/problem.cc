@@ -49,10 +49,7 @@ namespace Supple
     require_held_body();
     create_initial_state();
     if (forces.contact())
-      {
-        forces.contact()->require_clear(configuration, parameters.file);
-        warnings = forces.contact()->warnings_of_start(configuration);
-      }
+      warnings = forces.contact()->check_start(configuration, parameters.file);
   }
 
 

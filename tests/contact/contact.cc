@@ -366,16 +366,6 @@ namespace
   };
 
 
-  /** Where a simplex is on its way. */
-  Simplex
-  on_way(Simplex x, const Corners &way, const double part)
-  {
-    for (unsigned int v = 0; v < x.n; ++v)
-      x.x[v] += part * way[v];
-    return x;
-  }
-
-
   /** Keeps the least gap on safe ways. */
   struct SafeWays
   {
@@ -425,8 +415,8 @@ namespace
         const Corners way = random.corners(2.);
         const auto gap_at = [&](const double part) {
           const PlacedTool placed = tool.placed(between(from, to, part));
-          const Simplex there     = on_way(x, way, part);
-          return of_core ? distance(there, placed.simplex(*of_core)) - placed.offset
+          const Simplex there     = x.moved(way, part);
+          return of_core ? distance(there, of_core->at(placed.points)) - placed.offset
                          : placed.gap(there);
         };
         if (gap_at(0.) > 0.)
@@ -448,7 +438,7 @@ namespace
         const Simplex x = random.simplex(edges ? 2 : 1, 1.), y = random.simplex(edges ? 2 : 3, 1.);
         const Corners way = random.corners(2.), other_way = random.corners(2.);
         ways.note(safe_part(x, way, y, other_way), [&](const double part) {
-          return distance(on_way(x, way, part), on_way(y, other_way, part));
+          return distance(x.moved(way, part), y.moved(other_way, part));
         });
       }
     ways.print();
@@ -494,14 +484,10 @@ namespace
         const auto come_near = [&](const SurfacePart &one, const SurfacePart &other) {
           for (unsigned int k = 0; k <= (moves ? 20u : 0u); ++k)
             {
-              Simplex there = surface.simplex(one, u);
-              for (unsigned int v = 0; v < one.n; ++v)
-                for (unsigned int i = 0; i < 3; ++i)
-                  there.x[v][i] += k / 20. * way.local_element(3 * one.nodes[v] + i);
+              const Corners ways      = ContactSurface::values(one, way.begin());
               const PlacedTool placed = tool.placed(between(from, to, k / 20.));
-              if (distance(there, (k == 0 ? tool.placed(from) : placed).simplex(other)) -
-                    tool.offset <
-                  0.1)
+              const Simplex there     = surface.simplex(one, u).moved(ways, k / 20.);
+              if (distance(there, other.at(placed.points)) - tool.offset < 0.1)
                 return true;
             }
           return false;

@@ -19,6 +19,9 @@ namespace Supple
     void
     take(const Arrow &point);
 
+    void
+    take(const Simplex &simplex);
+
     /** Makes room for all that is no farther away. */
     void
     grow(double distance);

@@ -62,6 +62,14 @@ namespace Supple
              : n == 2 ? c[0] * x[0] + c[1] * x[1]
                       : c[0] * x[0] + c[1] * x[1] + c[2] * x[2];
     }
+
+    /** The mean of the corners. */
+    Arrow
+    center() const;
+
+    /** At a part of a straight way of each corner [m]. */
+    Simplex
+    moved(const Corners &way, double part) const;
   };
 
 

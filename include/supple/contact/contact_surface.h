@@ -25,6 +25,14 @@ namespace Supple
     Simplex
     simplex(const SurfacePart &part, const double *u) const;
 
+    /** Values of the nodes of a part, such as ways [m]. @param values of all local nodes */
+    static Corners
+    values(const SurfacePart &part, const double *values);
+
+    /** Where a node is. @param u as of simplex() */
+    Arrow
+    place(unsigned int node, const double *u) const;
+
     /** The shortest edge at rest [m]; collective. */
     double
     shortest_edge() const;

@@ -1,6 +1,8 @@
 #ifndef supple_surface_parts_h
 #define supple_surface_parts_h
 
+#include <supple/contact/closest_points.h>
+
 #include <array>
 #include <vector>
 
@@ -13,6 +15,10 @@ namespace Supple
     std::array<unsigned int, 3> nodes;
     double measure; ///< the area at rest that it stands for [m^2]
     bool owned;     ///< true on exactly one process
+
+    /** With nodes at these places. */
+    Simplex
+    at(const std::vector<Arrow> &places) const;
 
     bool
     has_node(unsigned int node) const;

@@ -30,6 +30,20 @@ namespace Supple
     Arrow
     turned_back(const Arrow &vector) const;
 
+    /** Where a point is that the body carries, given in its frame. */
+    Arrow
+    carried(const Arrow &point) const
+    {
+      return place + turned(point);
+    }
+
+    /** A point in the frame of the body. */
+    Arrow
+    in_frame(const Arrow &point) const
+    {
+      return turned_back(point - place);
+    }
+
     /** Where the point of the body that is here with this pose was with another one. */
     Arrow
     place_with(const Pose &other, const Arrow &point) const;
@@ -62,22 +76,11 @@ namespace Supple
       return !shape;
     }
 
-    /** A part of the core. */
-    Simplex
-    simplex(const SurfacePart &part) const;
-
     /** Between a part of the surface and the whole tool; less than zero within a plane, and minus
      * the offset where another core is crossed or contains it [m].
      * @param least what is of no interest beyond */
     double
     gap(const Simplex &simplex, double least = std::numeric_limits<double>::max()) const;
-
-    /** A place in the frame of the tool. */
-    Arrow
-    in_frame(const Arrow &place) const
-    {
-      return pose.turned_back(place - pose.place);
-    }
   };
 
 

@@ -34,9 +34,6 @@ namespace Supple
     static ToolShape
     triangles(const TriangleMesh &mesh, double scale);
 
-    Simplex
-    simplex(const SurfacePart &part) const;
-
     /** Whether triangles have an inside: each edge is that of two, which run along it in opposite
      * directions. */
     bool

@@ -176,19 +176,16 @@ namespace Supple
     Vector
     pressure(const Configuration &configuration) const;
 
-    /** @throws InputError if the body or a part of it is within a tool or another body, or the
-     * other way round; collective */
-    void
-    require_clear(const Configuration &configuration, const ParameterFile &scene) const;
+    /** What a user should know of the start, in sentences; collective.
+     * @throws InputError if the body or a part of it is within a tool or another body, or the other
+     * way round */
+    std::vector<std::string>
+    check_start(const Configuration &configuration, const ParameterFile &scene) const;
 
     /** @throws ComputationError if a vertex that is held in all directions ends within a tool:
      * there is no such state. Collective. */
     void
     require_room(const Passage &passage, const Constraints &constraints) const;
-
-    /** What a user should know of the start, in sentences; collective. */
-    std::vector<std::string>
-    warnings_of_start(const Configuration &configuration) const;
 
     /** Of the barrier between bodies [m]. */
     double
@@ -233,11 +230,40 @@ namespace Supple
     /** Takes all that is near as what the pattern must couple, if a pair of the surface with itself
      * is not coupled. */
     void
-    renew_couplings(const double *u, const Passage &passage);
+    renew_couplings(const std::vector<ContactPair> &pairs,
+                    const std::vector<Friction::Slip> &slips,
+                    const Candidates &near);
+
+    /** As safe_part(), of one tool and on this process. */
+    double
+    safe_part_at(const Tool &tool,
+                 const SurfaceMotion &motion,
+                 const ToolMotion &of_tool,
+                 const Candidates &candidates) const;
+
+    /** As safe_part(), of the surface with itself. */
+    double
+    safe_part_of_bodies(const SurfaceMotion &motion, const Candidates &candidates) const;
 
     /** Whether the body has this place within a cell; this process's part. */
     bool
     body_contains(const double *u, const Arrow &place) const;
+
+    /** @param nearest place of the body to the tool @throws InputError if one is within the other
+     */
+    void
+    require_clear(const double *u,
+                  const PlacedTool &placed,
+                  const Tool &tool,
+                  const Nearest &nearest,
+                  const ParameterFile &scene) const;
+
+    /** Of a tool that is outside, in sentences. */
+    static void
+    add_warnings(std::vector<std::string> &warnings,
+                 const PlacedTool &placed,
+                 const Tool &tool,
+                 const Nearest &nearest);
 
     /** @throws InputError if the surface crosses itself, or a piece is within another */
     void
