@@ -201,7 +201,8 @@ namespace Supple
   Pose
   Tool::pose(const double time) const
   {
-    const Pose pose{value_of(position, time),
+    const SharedHandPath &hand = parameters.hand;
+    const Pose pose{hand && time >= hand->begin ? hand->at(time) : value_of(position, time),
                     dealii::numbers::PI / 180. * value_of(rotation, time)};
     if (!std::isfinite(pose.place.norm()) || !std::isfinite(pose.turn.norm()))
       throw ComputationError("the place of the tool " + parameters.name +

@@ -4,6 +4,7 @@
 #include <supple/forces/dead_loads.h>
 #include <supple/forces/gravity.h>
 #include <supple/forces/pressure.h>
+#include <supple/forces/pulls.h>
 #include <supple/mechanics/laws.h>
 
 #include <deal.II/base/mpi.h>
@@ -22,12 +23,15 @@ namespace Supple
                                              const ParameterFile &);
 
     /** Of each kind of load that a scene can have; null where it has none. */
-    constexpr Maker load_makers[] = {DeadLoads::make, make_pressure, Gravity::make};
+    constexpr Maker load_makers[] = {DeadLoads::make,
+                                     make_pressure,
+                                     Gravity::make,
+                                     Pulls::make};
 
     bool
     is_dead_load(const Force &force)
     {
-      return force.is_load() && force.is_linear();
+      return force.is_load() && force.is_linear() && !force.has_tangent();
     }
   } // namespace
 

@@ -23,6 +23,8 @@ namespace Supple
            "this\n"
            "  supple STUDY.prm                  run many variants of a scene and compare them\n"
            "  supple IDENTIFICATION.prm         fit two layers of skin to measurements\n"
+           "  supple --live SCENE.prm           take the body in the hand, on a page in the "
+           "browser\n"
            "  supple --check SCENE.prm          parse, build the mesh, validate, run nothing\n"
            "  supple --print-parameters [prm|json]\n"
            "                                    every entry with its default, unit, range and "
@@ -55,6 +57,8 @@ namespace Supple
           line.action = Action::print_version;
         else if (word == "--check")
           line.action = Action::check;
+        else if (word == "--live")
+          line.action = Action::live;
         else if (word == "--quiet")
           line.quiet = true;
         else if (word == "--set")
@@ -85,7 +89,8 @@ namespace Supple
       }
 
     require_single(line.overrides);
-    const bool needs_scene = line.action == Action::run || line.action == Action::check;
+    const bool needs_scene = line.action == Action::run || line.action == Action::check ||
+                             line.action == Action::live;
     if (needs_scene && line.scene.empty())
       throw InputError("A scene is missing.\n\n" + help());
     return line;

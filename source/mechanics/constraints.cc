@@ -1,6 +1,7 @@
 #include <supple/mechanics/constraints.h>
 
 #include <supple/base/error.h>
+#include <supple/base/expression.h>
 #include <supple/mechanics/free_motions.h>
 #include <supple/mechanics/selection.h>
 
@@ -18,7 +19,7 @@ namespace Supple
   {
     /** By differences at five times from @p time to @p time + 4 @p interval, of fourth order. */
     double
-    rate(const Expression &displacement,
+    rate(const std::function<double(const Point<3> &, double)> &displacement,
          const Point<3> &place,
          const double time,
          const double interval)
@@ -26,7 +27,7 @@ namespace Supple
       const std::array<double, 5> weights = {{-25. / 12., 4., -3., 4. / 3., -1. / 4.}};
       double sum                          = 0.;
       for (unsigned int k = 0; k < weights.size(); ++k)
-        sum += weights[k] * displacement.value(place, time + k * interval);
+        sum += weights[k] * displacement(place, time + k * interval);
       return sum / interval;
     }
   } // namespace
@@ -62,6 +63,9 @@ namespace Supple
     for (unsigned int m = 0; m < prescribed.size(); ++m)
       if (!prescribed[m].of.empty())
         add_motion(prescribed[m], motion_section(m), scene);
+
+    for (const ConstraintParameters::ByHand &hand : parameters.by_hand)
+      add_hand(hand);
 
     complete();
   }
@@ -161,7 +165,11 @@ namespace Supple
       {
         if (components[i] == "free")
           continue;
-        motions.push_back({i, Expression(components[i], 1, origin), {}, sample_of(nodes)});
+        const auto displacement = std::make_shared<const Expression>(components[i], 1, origin);
+        const auto at           = [displacement](const Point<3> &place, const double time) {
+          return displacement->value(place, time);
+        };
+        motions.push_back({i, at, {}, sample_of(nodes)});
         unsigned int n_twice = 0, n_by_nature = 0;
         for (unsigned int node = 0; node < body.n_local; ++node)
           if (nodes[node] && body.is_held_by_nature(3 * node + i))
@@ -173,7 +181,7 @@ namespace Supple
               if (node < body.n_owned)
                 motions.back().nodes.push_back(node);
             }
-        if (!motions.back().displacement.is_zero() &&
+        if (!displacement->is_zero() &&
             Utilities::MPI::max(n_by_nature, body.mesh.communicator) > 0)
           throw InputError(origin +
                            ": some of these vertices are on the axis and stay there; along "
@@ -182,6 +190,32 @@ namespace Supple
           throw InputError(scene.origin(section + "/Of") +
                            ": some of these vertices are held or moved already along " +
                            std::string(1, "xyz"[i]) + ".");
+      }
+  }
+
+
+  void
+  Constraints::add_hand(const ConstraintParameters::ByHand &hand)
+  {
+    const Point<3> place = Selection(body).place_of_vertex(hand.vertex);
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        const auto at = [i, path = hand.path](const Point<3> &rest, const double time) {
+          return path->at(time)[i] - rest[i];
+        };
+        motions.push_back({i, at, {}, place});
+        unsigned int held_twice = 0;
+        for (unsigned int node = 0; node < body.n_local; ++node)
+          if (body.serial_vertex[node] == hand.vertex && !body.is_held_by_nature(3 * node + i))
+            {
+              held_twice = held[3 * node + i] ? 1 : 0;
+              held[3 * node + i] = true;
+              if (node < body.n_owned)
+                motions.back().nodes.push_back(node);
+            }
+        if (Utilities::MPI::max(held_twice, body.mesh.communicator) > 0)
+          throw InputError(Selection(body).vertex_in_words(hand.vertex) +
+                           " is held or moved already along " + std::string(1, "xyz"[i]) + ".");
       }
   }
 
@@ -204,7 +238,7 @@ namespace Supple
     for (const Motion &motion : motions)
       for (const unsigned int node : motion.nodes)
         displacement.local_element(3 * node + motion.direction) =
-          motion.displacement.value(body.position(node), time);
+          motion.displacement(body.position(node), time);
   }
 
 
@@ -224,8 +258,8 @@ namespace Supple
   {
     const double interval = 1e-4 * (end - start), round_off = 1e-6 * body.mesh.diameter();
     return std::any_of(motions.begin(), motions.end(), [&](const Motion &motion) {
-      const Expression &u = motion.displacement;
-      const double way    = std::abs(u.value(motion.sample, end) - u.value(motion.sample, start));
+      const auto &u    = motion.displacement;
+      const double way = std::abs(u(motion.sample, end) - u(motion.sample, start));
       const double speeds = std::abs(rate(u, motion.sample, start, interval)) +
                             std::abs(rate(u, motion.sample, end, -interval));
       return way > 2. * (end - start) * speeds + round_off;

@@ -160,6 +160,18 @@ namespace Supple
   }
 
 
+  void
+  Diagnostics::book_change(const double time)
+  {
+    const Measurement now = measure_body(time, nullptr);
+    work += now.total - total;
+    elastic = now.elastic;
+    total   = now.total;
+    if (now.contact)
+      contact.energy = now.contact->energy;
+  }
+
+
   Measurement
   Diagnostics::measure_body(const double time, const Vector *momentum) const
   {

@@ -1,5 +1,6 @@
 #include <supple/observe/point_forces.h>
 
+#include <supple/base/expression.h>
 #include <supple/mechanics/selection.h>
 #include <supple/mesh/serial_mesh.h>
 

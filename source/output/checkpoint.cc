@@ -2,6 +2,7 @@
 
 #include <supple/base/error.h>
 #include <supple/base/files.h>
+#include <supple/base/first_process.h>
 #include <supple/mechanics/vertex_values.h>
 
 #include <deal.II/base/mpi.h>
@@ -22,7 +23,7 @@ namespace Supple
 
   namespace
   {
-    const std::string any_head = "supple checkpoint ", head = any_head + "3\n";
+    const std::string any_head = "supple checkpoint ", head = any_head + "4\n";
 
     std::string
     checksum(const std::string &content)
@@ -82,6 +83,22 @@ namespace Supple
     , previous_file(folder + "/" + files()[1])
     , last_time(std::chrono::steady_clock::now())
   {
+  }
+
+
+  std::optional<unsigned int>
+  Checkpoint::step_in(const std::string &folder, const MPI_Comm communicator)
+  {
+    long step = -1;
+    on_first_process(communicator, [&] {
+      for (const std::string &name : files())
+        if (const auto content = whole_content(folder + "/" + name); content && step < 0)
+          step = Json::from_cbor(*content).value("step", -1l);
+    });
+    step = Utilities::MPI::broadcast(communicator, step);
+    if (step < 0)
+      return {};
+    return static_cast<unsigned int>(step);
   }
 
 

@@ -16,22 +16,6 @@ namespace Supple
 
   namespace
   {
-    /** Where each of these comes to stand when they are sorted. */
-    template <class Key>
-    std::vector<unsigned int>
-    places_when_sorted(const std::vector<Key> &keys)
-    {
-      std::vector<unsigned int> order(keys.size()), place(keys.size());
-      std::iota(order.begin(), order.end(), 0);
-      std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
-        return keys[a] < keys[b];
-      });
-      for (unsigned int i = 0; i < order.size(); ++i)
-        place[order[i]] = i;
-      return place;
-    }
-
-
     /** So many of them, first and last included, as far apart as they can be. */
     std::vector<unsigned int>
     spread(const unsigned int n_taken, const unsigned int n)
@@ -44,31 +28,14 @@ namespace Supple
   } // namespace
 
 
-  namespace
-  {
-    /** The four triangles between the corners and the middles of the edges of a face. */
-    std::array<LocalFace, 4>
-    quarters(const LocalFace &face, const std::array<unsigned int, 3> &middles)
-    {
-      std::array<LocalFace, 4> parts;
-      parts.fill(face);
-      for (unsigned int v = 0; v < 3; ++v)
-        parts[v].nodes = {{face.nodes[v], middles[v], middles[(v + 2) % 3]}};
-      parts[3].nodes = middles;
-      return parts;
-    }
-  } // namespace
-
-
   Film::Film(const Body &body, const std::string &folder, const bool with_errors)
-    : body(body)
+    : surface(body)
+    , communicator(body.mesh.communicator)
     , file(folder + "/" + file_name())
     , n_fields(with_errors ? 3 : 2)
     , magic("supple frames of " + std::to_string(n_fields) + " fields\n")
     , root(Utilities::MPI::this_mpi_process(body.mesh.communicator) == 0)
   {
-    find_surface();
-    gather_surface();
   }
 
 
@@ -76,96 +43,6 @@ namespace Supple
   Film::file_name()
   {
     return "report.frames";
-  }
-
-
-  void
-  Film::find_surface()
-  {
-    const DistributedMesh &parts = *body.mesh.parts;
-    std::vector<bool> on_surface(body.n_local, false);
-    std::vector<unsigned int> material_of(parts.n_cells);
-    const auto add = [&](const auto &part, const unsigned int cell_index) {
-      const std::array<unsigned int, 3> nodes = {{part.nodes[0], part.nodes[1], part.nodes[2]}};
-      for (const unsigned int node : nodes)
-        on_surface[node] = true;
-      if (part.owned)
-        own_triangles.push_back({nodes, cell_index, material_of[cell_index]});
-    };
-    for (const LocalCell &cell : parts.cells)
-      {
-        material_of[cell.index] = cell.material_id;
-        if (body.mesh.section.plane())
-          add(cell, cell.index);
-      }
-    if (parts.is_quadratic())
-      for (std::size_t f = 0; f < parts.faces.size(); ++f)
-        for (const LocalFace &part : quarters(parts.faces[f], parts.face_middles[f]))
-          add(part, part.cell_index);
-    else if (!body.mesh.section.plane())
-      for (const LocalFace &face : parts.faces)
-        add(face, face.cell_index);
-    for (unsigned int node = 0; node < body.n_owned; ++node)
-      if (on_surface[node])
-        own_nodes.push_back(node);
-  }
-
-
-  void
-  Film::gather_surface()
-  {
-    std::vector<unsigned int> vertices, corners;
-    std::vector<float> positions;
-    for (const unsigned int node : own_nodes)
-      {
-        vertices.push_back(body.serial_vertex[node]);
-        positions.insert(positions.end(), body.positions[node].begin(), body.positions[node].end());
-      }
-    std::vector<unsigned int> unsorted_materials;
-    for (const Triangle &triangle : own_triangles)
-      {
-        for (const unsigned int node : triangle.nodes)
-          corners.push_back(body.serial_vertex[node]);
-        unsorted_materials.push_back(triangle.material);
-      }
-
-    const MPI_Comm communicator = body.mesh.communicator;
-    vertices                    = gathered_on_first(vertices, communicator);
-    corners                     = gathered_on_first(corners, communicator);
-    positions                   = gathered_on_first(positions, communicator);
-    unsorted_materials          = gathered_on_first(unsorted_materials, communicator);
-    if (root)
-      sort_surface(vertices, positions, corners, unsorted_materials);
-  }
-
-
-  void
-  Film::sort_surface(std::vector<unsigned int> vertices,
-                     const std::vector<float> &positions,
-                     const std::vector<unsigned int> &corners,
-                     const std::vector<unsigned int> &unsorted_materials)
-  {
-    vertex_place = places_when_sorted(vertices);
-    rest.resize(positions.size());
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-      std::copy_n(&positions[3 * i], 3, &rest[3 * vertex_place[i]]);
-    std::sort(vertices.begin(), vertices.end());
-    std::vector<std::array<unsigned int, 3>> unsorted(corners.size() / 3);
-    for (std::size_t i = 0; i < corners.size(); ++i)
-      unsorted[i / 3][i % 3] =
-        std::lower_bound(vertices.begin(), vertices.end(), corners[i]) - vertices.begin();
-    for (std::array<unsigned int, 3> &triangle : unsorted) // deal.II may begin with any of them
-      std::rotate(triangle.begin(),
-                  std::min_element(triangle.begin(), triangle.end()),
-                  triangle.end());
-    triangle_place = places_when_sorted(unsorted);
-    triangles.resize(unsorted.size());
-    materials.resize(unsorted.size());
-    for (std::size_t i = 0; i < unsorted.size(); ++i)
-      {
-        triangles[triangle_place[i]] = unsorted[i];
-        materials[triangle_place[i]] = unsorted_materials[i];
-      }
   }
 
 
@@ -179,7 +56,7 @@ namespace Supple
   std::size_t
   Film::frame_size() const
   {
-    return 2 * sizeof(double) + (rest.size() + n_fields * triangles.size()) * sizeof(float);
+    return 2 * sizeof(double) + (surface.rest.size() + n_fields * surface.triangles.size()) * sizeof(float);
   }
 
 
@@ -231,13 +108,13 @@ namespace Supple
     for (std::size_t f = 0; f < n_fields; ++f)
       {
         std::vector<float> here;
-        here.reserve(own_triangles.size());
-        for (const Triangle &triangle : own_triangles)
+        here.reserve(surface.own_triangles.size());
+        for (const BodySurface::Triangle &triangle : surface.own_triangles)
           here.push_back(fields[f] ? (*fields[f])[triangle.cell_index] : 0.f);
-        here = gathered_on_first(here, body.mesh.communicator);
-        all.resize(all.size() + triangle_place.size());
-        for (std::size_t i = 0; i < triangle_place.size(); ++i)
-          all[f * triangle_place.size() + triangle_place[i]] = here[i];
+        here = gathered_on_first(here, communicator);
+        all.resize(all.size() + surface.triangle_place.size());
+        for (std::size_t i = 0; i < surface.triangle_place.size(); ++i)
+          all[f * surface.triangle_place.size() + surface.triangle_place[i]] = here[i];
       }
     return all;
   }
@@ -246,19 +123,11 @@ namespace Supple
   void
   Film::write(const Drawing &drawing)
   {
-    std::vector<float> nodal;
-    nodal.reserve(3 * own_nodes.size());
-    for (const unsigned int node : own_nodes)
-      for (unsigned int d = 0; d < 3; ++d)
-        nodal.push_back(drawing.displacement.local_element(3 * node + d));
-    nodal                           = gathered_on_first(nodal, body.mesh.communicator);
+    std::vector<float> values       = surface.gathered(drawing.displacement);
     const std::vector<float> fields = gather_fields(drawing);
     if (!root)
       return;
 
-    std::vector<float> values(rest.size());
-    for (std::size_t i = 0; i < vertex_place.size(); ++i)
-      std::copy_n(&nodal[3 * i], 3, &values[3 * vertex_place[i]]);
     values.insert(values.end(), fields.begin(), fields.end());
     if (!stream.is_open())
       open(true);
@@ -276,8 +145,8 @@ namespace Supple
   Film::read_frame(std::ifstream &stream, const unsigned int number) const
   {
     FilmFrame frame;
-    frame.displacement.resize(rest.size());
-    frame.cells.resize(n_fields * triangles.size());
+    frame.displacement.resize(surface.rest.size());
+    frame.cells.resize(n_fields * surface.triangles.size());
     stream.seekg(head_size() + number * frame_size());
     stream.read(reinterpret_cast<char *>(&frame.time), sizeof(double));
     stream.read(reinterpret_cast<char *>(&frame.step), sizeof(double));
@@ -304,11 +173,11 @@ namespace Supple
   Film::pack(const std::size_t limit) const
   {
     constexpr std::size_t largest_ratio = 4; // of plain bytes to packed ones
-    PackedFilm packed(rest, triangles, materials, n_fields);
+    PackedFilm packed(surface.rest, surface.triangles, surface.materials, n_fields);
     packed.n_written        = n_frames;
     const std::size_t begin = packed.bytes.size();
     const std::size_t room  = limit > begin ? limit - begin : 0;
-    const std::size_t size  = (rest.size() + n_fields * triangles.size()) * sizeof(std::uint16_t);
+    const std::size_t size  = (surface.rest.size() + n_fields * surface.triangles.size()) * sizeof(std::uint16_t);
     for (std::size_t n_taken = std::min<std::size_t>(n_frames, largest_ratio * room / size);;)
       {
         n_taken = std::max<std::size_t>(n_taken, std::min(n_frames, 2u));

@@ -4,6 +4,8 @@
 #include <supple/base/first_process.h>
 #include <supple/base/folder_lock.h>
 #include <supple/identification/identification.h>
+#include <supple/live/live_run.h>
+#include <supple/live/replay.h>
 #include <supple/program/parameter_reference.h>
 #include <supple/run/adaptation.h>
 #include <supple/run/simulation.h>
@@ -72,12 +74,24 @@ namespace Supple
     }
 
 
-    /** With the mesh that its pilot runs find, if it is to be run. */
+    /** Reads the scene of the command line with more changes. */
+    Session::Scene
+    reader_of(const CommandLine &line)
+    {
+      return [file = line.scene, own = line.overrides](const std::vector<Override> &more) {
+        std::vector<Override> all = own;
+        all.insert(all.end(), more.begin(), more.end());
+        return read_scene(file, all);
+      };
+    }
+
+
+    /** With the mesh that its pilot runs find, unless it is checked alone. */
     Parameters
     scene_of(const CommandLine &line, const MPI_Comm communicator)
     {
       const Parameters scene = read_scene(line.scene, line.overrides);
-      if (line.action == CommandLine::Action::run)
+      if (line.action != CommandLine::Action::check)
         {
           if (asks_for_pilots(scene))
             require_folder(line.output.empty() ? scene.output_folder() : line.output, communicator);
@@ -85,6 +99,40 @@ namespace Supple
         }
       check_adaptation(scene, communicator);
       return scene;
+    }
+    /** What was done by hand in a live session, once more. */
+    void
+    run_or_check_replay(const CommandLine &line,
+                        const Parameters &scene,
+                        const MPI_Comm communicator)
+    {
+      Replay replay(scene,
+                    reader_of(line),
+                    read_motion(scene.live.path(scene.file)),
+                    scene.live.by == LiveParameters::By::time,
+                    line.output.empty() ? scene.output_folder() : line.output,
+                    line.quiet,
+                    1.,
+                    communicator);
+      if (line.action == CommandLine::Action::run)
+        replay.run();
+      else
+        replay.check();
+    }
+    void
+    live_run(const CommandLine &line, const MPI_Comm communicator)
+    {
+      const std::string live = "--live " + line.scene + ": ";
+      if (line.aims || StudyParameters::is_study(line.scene) ||
+          IdentificationParameters::is_identification(line.scene))
+        throw InputError(live + "a session runs a single scene, neither a study nor an aim.");
+      const Parameters scene = scene_of(line, communicator);
+      if (!scene.live.motion.empty())
+        throw InputError(live + "this scene is a session that has ended. Without --live it is "
+                                "run once more.");
+      const std::string folder =
+        line.output.empty() ? scene.output_folder() + "-live" : line.output;
+      LiveRun(scene, reader_of(line), folder, line.quiet, communicator).run();
     }
   } // namespace
 
@@ -108,6 +156,9 @@ namespace Supple
           if (root)
             print_reference(std::cout, line.format);
           return;
+        case Action::live:
+          live_run(line, communicator);
+          return;
         case Action::check:
         case Action::run:
           if (const auto study = study_of(line))
@@ -121,8 +172,10 @@ namespace Supple
             run_or_check<Identification>(line,
                                          IdentificationParameters::read(line.scene, line.overrides),
                                          communicator);
+          else if (const Parameters scene = scene_of(line, communicator); scene.live.motion.empty())
+            run_or_check<Simulation>(line, scene, communicator);
           else
-            run_or_check<Simulation>(line, scene_of(line, communicator), communicator);
+            run_or_check_replay(line, scene, communicator);
       }
   }
 } // namespace Supple

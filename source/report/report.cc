@@ -149,31 +149,6 @@ namespace Supple
     }
 
 
-    /** The scene with the folder of its file: "bar/large". */
-    std::string
-    full_name(const Parameters &parameters)
-    {
-      const std::string folder =
-        std::filesystem::path(parameters.file.folder()).filename().string();
-      return (folder.empty() || folder[0] == '.' ? "" : folder + "/") + parameters.scene_name;
-    }
-
-
-    /** Against gravity at the end; null without it. */
-    Json
-    upward(const Parameters &parameters)
-    {
-      const Expression gravity(parameters.loads.gravity_expressions(),
-                               3,
-                               parameters.origin("Loads/Gravity"));
-      const double end = parameters.time.end();
-      dealii::Tensor<1, 3> g;
-      for (unsigned int i = 0; i < 3; ++i)
-        g[i] = gravity.value({0., 0., 0.}, end, i);
-      return g.norm() > 0. ? Json{-g[0], -g[1], -g[2]} : Json();
-    }
-
-
     /** Surfaces of the tools in their frames, and their poses at some times. */
     Json
     drawn(const std::vector<Tool> &tools, const double extent, const Json &times)
@@ -205,6 +180,29 @@ namespace Supple
       return list;
     }
   } // namespace
+
+
+  std::string
+  full_name(const Parameters &parameters)
+  {
+    const std::string folder =
+      std::filesystem::path(parameters.file.folder()).filename().string();
+    return (folder.empty() || folder[0] == '.' ? "" : folder + "/") + parameters.scene_name;
+  }
+
+
+  Json
+  upward(const Parameters &parameters)
+  {
+    const Expression gravity(parameters.loads.gravity_expressions(),
+                             3,
+                             parameters.origin("Loads/Gravity"));
+    const double end = parameters.time.end();
+    dealii::Tensor<1, 3> g;
+    for (unsigned int i = 0; i < 3; ++i)
+      g[i] = gravity.value({0., 0., 0.}, end, i);
+    return g.norm() > 0. ? Json{-g[0], -g[1], -g[2]} : Json();
+  }
 
 
   void

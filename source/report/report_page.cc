@@ -38,8 +38,8 @@ namespace Supple
 
 
   // In a script, "</" would end it.
-  void
-  write_page(const std::string &folder, const Json &data, const std::vector<unsigned char> &surface)
+  std::string
+  page_text(const Json &data, const std::vector<unsigned char> &surface)
   {
     std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace), safe;
     safe.reserve(text.size());
@@ -48,6 +48,13 @@ namespace Supple
     std::string page = report_page;
     replace(page, "SUPPLE_SURFACE", dealii::Utilities::encode_base64(surface));
     replace(page, "SUPPLE_DATA", safe);
-    write_durable_file(folder + "/" + page_file, page);
+    return page;
+  }
+
+
+  void
+  write_page(const std::string &folder, const Json &data, const std::vector<unsigned char> &surface)
+  {
+    write_durable_file(folder + "/" + page_file, page_text(data, surface));
   }
 } // namespace Supple

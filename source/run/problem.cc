@@ -16,9 +16,24 @@ namespace Supple
   using namespace dealii;
 
   Problem::Problem(const Parameters &scene, const MPI_Comm communicator)
+    : Problem(scene, std::make_shared<const Mesh>(make_mesh(scene, communicator)), true)
+  {
+  }
+
+
+  Problem::Problem(const Parameters &scene, const std::shared_ptr<const Mesh> &mesh)
+    : Problem(scene, mesh, false)
+  {
+  }
+
+
+  Problem::Problem(const Parameters &scene,
+                   const std::shared_ptr<const Mesh> &ready_mesh,
+                   const bool begins_at_start)
     : parameters(scene)
     , stationary(parameters.time.problem == TimeParameters::Problem::stationary)
-    , mesh(make_mesh(parameters, communicator))
+    , shared_mesh(ready_mesh)
+    , mesh(*shared_mesh)
     , time(time_with_instants(parameters, mesh.bounding_box))
     , body(mesh, parameters.material, parameters.solver.threads, parameters.file)
     , constraints(body, parameters.constraints, parameters.motions, parameters.file)
@@ -48,7 +63,7 @@ namespace Supple
     dealii::MultithreadInfo::set_thread_limit(body.n_threads); // deal.II's vectors have as many
     require_held_body();
     create_initial_state();
-    if (forces.contact())
+    if (forces.contact() && begins_at_start)
       warnings = forces.contact()->check_start(configuration, parameters.file);
   }
 

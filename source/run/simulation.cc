@@ -48,8 +48,26 @@ namespace Supple
                          const std::string &folder,
                          const bool quiet,
                          const MPI_Comm communicator)
-    : talks(!quiet && Utilities::MPI::this_mpi_process(communicator) == 0)
-    , problem(scene, communicator)
+    : Simulation(std::make_shared<Problem>(scene, communicator), folder, quiet)
+  {
+  }
+
+
+  Simulation::Simulation(const Parameters &scene,
+                         const std::shared_ptr<const Mesh> &mesh,
+                         const std::string &folder,
+                         const bool quiet)
+    : Simulation(std::make_shared<Problem>(scene, mesh), folder, quiet)
+  {
+  }
+
+
+  Simulation::Simulation(std::shared_ptr<Problem> of_scene,
+                         const std::string &folder,
+                         const bool quiet)
+    : talks(!quiet && Utilities::MPI::this_mpi_process(of_scene->mesh.communicator) == 0)
+    , own_problem(std::move(of_scene))
+    , problem(*own_problem)
     , probes(problem.body,
              problem.parameters.probes,
              problem.parameters.motions,
@@ -61,9 +79,9 @@ namespace Supple
     , second_mesh(make_second_mesh())
     , pulses(problem.parameters, problem.time, problem.mesh.bounding_box)
     , start_displacement(problem.configuration.displacement())
-    , results(folder, problem.parameters, communicator)
-    , interruption(communicator)
-    , progress(talks, Utilities::MPI::n_mpi_processes(communicator) > 1)
+    , results(folder, problem.parameters, problem.mesh.communicator)
+    , interruption(problem.mesh.communicator)
+    , progress(talks, Utilities::MPI::n_mpi_processes(problem.mesh.communicator) > 1)
   {
     course.setup_seconds = course.seconds_since_start();
   }
@@ -226,27 +244,68 @@ namespace Supple
   void
   Simulation::run(Listener *const guest)
   {
+    begin(guest);
+    while (!finished())
+      {
+        const bool goes_on = step();
+        progress.update(course.now.step, course.now.time / integrator->end);
+        if (!goes_on && !finished())
+          interrupt();
+      }
+    end();
+  }
+
+
+  void
+  Simulation::begin(Listener *const guest)
+  {
     add_listeners(guest);
     results.lock_folder();
     if (checkpoints)
       checkpoints->resume();
     if (!course.resumed())
       measure(0, StepReport());
+    open();
+  }
+
+
+  void
+  Simulation::open()
+  {
     results.open(course.resumed(), course.now.step);
     warnings_told = description().warnings();
     if (talks)
       description().print(false);
+    tell_failures([this] {
+      listeners.begin(observation(), course.resumed());
+      return true;
+    });
+  }
+
+
+  bool
+  Simulation::step()
+  {
+    return tell_failures([this] { return advance(); });
+  }
+
+
+  void
+  Simulation::end()
+  {
+    tell_failures([this] {
+      finish("done");
+      return true;
+    });
+  }
+
+
+  bool
+  Simulation::tell_failures(const std::function<bool()> &action)
+  {
     try
       {
-        listeners.begin(observation(), course.resumed());
-        while (!finished())
-          {
-            const bool goes_on = advance();
-            progress.update(course.now.step, course.now.time / integrator->end);
-            if (!goes_on && !finished())
-              interrupt();
-          }
-        finish("done");
+        return action();
       }
     catch (const InterruptedError &)
       {
@@ -260,6 +319,63 @@ namespace Supple
       {
         throw WriteError("After step " + std::to_string(course.now.step) + ": " + error.what());
       }
+  }
+
+
+  Simulation::Legacy
+  Simulation::leave()
+  {
+    nlohmann::json kept = nlohmann::json::object();
+    listeners.save(kept);
+    nlohmann::json rest = {{"course", course.save()},
+                           {"cells", problem.configuration.save_cells()},
+                           {"listeners", kept}};
+    if (observed)
+      rest["diagnostics"] = diagnostics.save();
+    std::string packed;
+    nlohmann::json::to_cbor(rest, packed);
+    std::vector<Vector> vectors;
+    for (const Vector *const vector : listeners.kept_vectors())
+      vectors.push_back(*vector);
+    // of the cells the first process alone knows all
+    return {problem.shared_mesh,
+            problem.configuration.state,
+            course.now.time,
+            problem.effort,
+            vectors,
+            Utilities::MPI::broadcast(problem.mesh.communicator, packed)};
+  }
+
+
+  void
+  Simulation::go_on_from(const Legacy &legacy, Listener *const guest)
+  {
+    const nlohmann::json rest = nlohmann::json::from_cbor(legacy.rest);
+    add_listeners(guest);
+    results.lock_folder();
+    course.load(rest.at("course"));
+    course.origin               = "step " + std::to_string(course.now.step);
+    problem.effort              = legacy.effort;
+    problem.configuration.state = legacy.state;
+    try
+      {
+        problem.configuration.load_cells(rest.at("cells"), problem.effort);
+      }
+    catch (const std::out_of_range &)
+      {
+        throw InputError("the cells remember other things than this scene asks for");
+      }
+    integrator->begin_at(legacy.time);
+    listeners.load(rest.at("listeners"));
+    const std::vector<Vector *> kept = listeners.kept_vectors();
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      *kept[k] = legacy.kept[k];
+    if (observed)
+      {
+        diagnostics.load(rest.at("diagnostics"));
+        diagnostics.book_change(legacy.time);
+      }
+    open();
   }
 
 

@@ -96,29 +96,33 @@ namespace Supple
   }
 
 
+  std::vector<std::string>
+  ToolTables::columns()
+  {
+    return {"step", "time", "x", "y", "z", "fx", "fy", "fz", "tx", "ty", "tz", "work", "depth", "min_gap", "area"};
+  }
+
+
+  std::vector<double>
+  ToolTables::row(const Measurement &now, const ToolReport &tool)
+  {
+    std::vector<double> row = {double(now.step), now.time};
+    for (const auto *vector : {&tool.place, &tool.force, &tool.torque})
+      for (unsigned int i = 0; i < 3; ++i)
+        row.push_back((*vector)[i]);
+    row.insert(row.end(), {tool.work, tool.depth, tool.gap, tool.area});
+    return row;
+  }
+
+
   void
   ToolTables::open(const bool resumed, const unsigned int step)
   {
-    const std::vector<std::string> columns = {"step",
-                                              "time",
-                                              "x",
-                                              "y",
-                                              "z",
-                                              "fx",
-                                              "fy",
-                                              "fz",
-                                              "tx",
-                                              "ty",
-                                              "tz",
-                                              "work",
-                                              "depth",
-                                              "min_gap",
-                                              "area"};
     for (const ToolParameters &tool : tools)
       {
         const std::string file = folder + "/tool_" + tool.name + ".csv";
         tables.push_back(resumed ? std::make_unique<CsvFile>(file, step + 1ul)
-                                 : std::make_unique<CsvFile>(file, columns));
+                                 : std::make_unique<CsvFile>(file, columns()));
       }
   }
 
@@ -128,15 +132,7 @@ namespace Supple
   {
     const PhaseTimer timer(effort, Phase::output);
     for (std::size_t t = 0; t < tables.size(); ++t)
-      {
-        const ToolReport &tool  = now.measurement.contact->tools[t];
-        std::vector<double> row = {double(now.measurement.step), now.measurement.time};
-        for (const auto *vector : {&tool.place, &tool.force, &tool.torque})
-          for (unsigned int i = 0; i < 3; ++i)
-            row.push_back((*vector)[i]);
-        row.insert(row.end(), {tool.work, tool.depth, tool.gap, tool.area});
-        tables[t]->write_row(row);
-      }
+      tables[t]->write_row(row(now.measurement, now.measurement.contact->tools[t]));
     return true;
   }
 

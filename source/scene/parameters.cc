@@ -24,6 +24,7 @@ namespace Supple
     probes.declare(prm);
     space.declare(prm);
     checkpoint.declare(prm);
+    live.declare(prm);
   }
 
 

@@ -97,6 +97,7 @@ namespace Supple
   {
     nlohmann::json saved = {{"time", time},
                             {"grid", grid},
+                            {"grid_start", grid_start},
                             {"last_size", last_size},
                             {"was_rejected", was_rejected}};
     saved["equation"]    = equation.save(adaptive || split);
@@ -111,6 +112,7 @@ namespace Supple
   {
     time         = saved.at("time");
     grid         = saved.at("grid");
+    grid_start   = saved.at("grid_start");
     last_size    = saved.at("last_size");
     was_rejected = saved.at("was_rejected");
     equation.load(saved.at("equation"));
@@ -538,9 +540,9 @@ namespace Supple
   double
   ArkodeIntegrator::next_step_size() const
   {
-    if (time == grid * settings.step && std::min(last_size, size_limit) > 0.999 * settings.step)
+    if (time == grid_time(grid) && std::min(last_size, size_limit) > 0.999 * settings.step)
       return settings.step; // the very same number: nothing is factorized anew
-    const double rest   = (grid + 1) * settings.step - time;
+    const double rest   = grid_time(grid + 1) - time;
     const double longer = std::min(2. * last_size, size_limit);
     return longer > 0.999 * rest ? rest : longer;
   }
@@ -549,7 +551,7 @@ namespace Supple
   double
   ArkodeIntegrator::end_of_step(const double size) const
   {
-    const double next = (grid + 1) * settings.step;
+    const double next = grid_time(grid + 1);
     return time + size > next - grid_accuracy * settings.step ? next : time + size;
   }
 
@@ -586,7 +588,7 @@ namespace Supple
         set_rotations(EquationOfMotion::Rotations::following);
         size_limit = last_size;
       }
-    if (time == grid * settings.step) // it is where the step to be done again has landed
+    if (time == grid_time(grid)) // it is where the step to be done again has landed
       --grid;
     started = false;
     return true;
@@ -614,7 +616,7 @@ namespace Supple
     size_limit = std::numeric_limits<double>::max();
     if (settings.method == Method::backward_euler && !equation.rotations_are_frozen())
       set_rotations(EquationOfMotion::Rotations::frozen);
-    if (time == grid * settings.step)
+    if (time == grid_time(grid))
       newton_fails = given_up = false;
   }
 
@@ -674,7 +676,7 @@ namespace Supple
     if (split)
       check_growth(report.local_error);
     report.time = step_end;
-    if (report.time == (grid + 1) * settings.step)
+    if (report.time == grid_time(grid + 1))
       ++grid;
     return report;
   }

@@ -19,7 +19,7 @@ namespace Supple
   DynamicIntegrator::DynamicIntegrator(const Model &model,
                                        const EquationOfMotion::Rotations rotations,
                                        const EquationOfMotion::HeldVelocity held_velocity)
-    : TimeIntegrator(model, model.time.end())
+    : TimeIntegrator(model, model.time.last_end())
     , settings(model.time)
     , equation(model, rotations, held_velocity)
     , backward_euler(held_velocity == EquationOfMotion::HeldVelocity::difference)

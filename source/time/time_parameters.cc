@@ -159,7 +159,7 @@ namespace Supple
   TimeParameters::next_stop(const double time) const
   {
     const double later = time + 2. * moment();
-    double stop        = end();
+    double stop        = last_end();
     const auto instant = std::upper_bound(instants.begin(), instants.end(), later);
     if (instant != instants.end())
       stop = std::min(stop, *instant);

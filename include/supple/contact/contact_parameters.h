@@ -1,6 +1,7 @@
 #ifndef supple_contact_parameters_h
 #define supple_contact_parameters_h
 
+#include <supple/base/hand_path.h>
 #include <supple/contact/tool_file.h>
 #include <supple/input/parameter_file.h>
 
@@ -63,6 +64,10 @@ namespace Supple
     std::string file;                           ///< of its surface
     double scale    = 1.;                       ///< of the file [m]
     double friction = 0.;                       ///< coefficient of Coulomb's law
+
+    /** No entry: of the reference point, from when on a hand moves it in place of the position;
+     * null: never. */
+    SharedHandPath hand;
 
     void
     declare(dealii::ParameterHandler &prm);

@@ -15,6 +15,7 @@ namespace Supple
     {
       run,
       check,
+      live,
       print_parameters,
       print_version,
       print_help

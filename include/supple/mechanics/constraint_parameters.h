@@ -1,6 +1,8 @@
 #ifndef supple_constraint_parameters_h
 #define supple_constraint_parameters_h
 
+#include <supple/base/hand_path.h>
+
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
@@ -17,6 +19,14 @@ namespace Supple
     std::vector<std::string> clamped_boundaries; ///< ids, or names of groups
     std::string clamped_region;
     std::array<std::vector<std::string>, 3> sliding_boundaries; ///< held along x, along y, along z
+
+    /** A vertex that a hand holds: no entry of a scene, but part of a live session. */
+    struct ByHand
+    {
+      unsigned int vertex; ///< index in the mesh
+      SharedHandPath path;
+    };
+    std::vector<ByHand> by_hand;
 
     void
     declare(dealii::ParameterHandler &prm);

@@ -1,9 +1,10 @@
 #ifndef supple_constraints_h
 #define supple_constraints_h
 
-#include <supple/base/expression.h>
 #include <supple/mechanics/body.h>
 #include <supple/mechanics/constraint_parameters.h>
+
+#include <functional>
 
 namespace Supple
 {
@@ -93,7 +94,7 @@ namespace Supple
     struct Motion
     {
       unsigned int direction;
-      Expression displacement;
+      std::function<double(const dealii::Point<3> &, double)> displacement; ///< of place and time
       std::vector<unsigned int> nodes; ///< owned
       dealii::Point<3> sample;         ///< one of the vertices, the same on all processes
     };
@@ -102,6 +103,10 @@ namespace Supple
     add_motion(const MotionParameters &motion,
                const std::string &section,
                const ParameterFile &scene);
+
+    /** @throws InputError if it is held already, or there is no such vertex */
+    void
+    add_hand(const ConstraintParameters::ByHand &hand);
 
     /** A vertex among those selected. */
     dealii::Point<3>

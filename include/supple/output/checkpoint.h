@@ -35,6 +35,11 @@ namespace Supple
                bool dynamic,
                const std::string &folder);
 
+    /** The step of the checkpoint that a run in this folder would go on from; nothing without one.
+     * Collective. @throws InputError on all processes if it is of another version */
+    static std::optional<unsigned int>
+    step_in(const std::string &folder, MPI_Comm communicator);
+
     /** Their names in the folder. */
     static std::vector<std::string>
     files();

@@ -1,7 +1,7 @@
 #ifndef supple_film_h
 #define supple_film_h
 
-#include <supple/mechanics/body.h>
+#include <supple/output/body_surface.h>
 #include <supple/output/packed_film.h>
 #include <supple/output/vtu.h>
 
@@ -14,14 +14,12 @@
 namespace Supple
 {
   /**
-   * The surface of the body in each frame, for the report page: its triangles, four of each face of
-   * a quadratic cell, those of a plane body being all its cells, the displacement of their
-   * vertices, and volume ratio, von Mises stress and perhaps the error in space of the cells behind
-   * them.
+   * The surface of the body in each frame, for the report page: the displacement of its vertices,
+   * and volume ratio, von Mises stress and perhaps the error in space of the cells behind its
+   * triangles.
    *
    * The frames are kept in a file of the output folder, report.frames, so that a run that goes on
-   * from a checkpoint has those before it. Vertices are sorted by their index in the mesh before
-   * partitioning, and triangles by their vertices: the number of processes may change.
+   * from a checkpoint has those before it.
    */
   class Film
   {
@@ -51,21 +49,6 @@ namespace Supple
     remove() const;
 
   private:
-    /** This process's part of it. */
-    void
-    find_surface();
-
-    void
-    gather_surface();
-
-    /** @param vertices of all processes one after the other, with their @p positions; @p corners of
-     * the triangles are of these vertices too */
-    void
-    sort_surface(std::vector<unsigned int> vertices,
-                 const std::vector<float> &positions,
-                 const std::vector<unsigned int> &corners,
-                 const std::vector<unsigned int> &unsorted_materials);
-
     /** The values of all triangles, field by field, on the first process; collective. */
     std::vector<float>
     gather_fields(const Drawing &drawing) const;
@@ -85,25 +68,12 @@ namespace Supple
     std::vector<FilmFrame>
     read_frames(unsigned int n_taken) const;
 
-    const Body &body;
+    const BodySurface surface;
+    const MPI_Comm communicator;
     const std::string file;
     const std::size_t n_fields; ///< of the triangles
     const std::string magic;    ///< how the file begins
     const bool root;
-    std::vector<unsigned int> own_nodes; ///< on the surface, owned by this process
-    struct Triangle
-    {
-      std::array<unsigned int, 3> nodes; ///< local numbers
-      unsigned int cell_index, material;
-    };
-    std::vector<Triangle> own_triangles;
-
-    // On the first process: the surface as a whole, and where each number that is gathered belongs.
-    std::vector<float> rest; ///< [m]
-    std::vector<std::array<unsigned int, 3>> triangles;
-    std::vector<unsigned int> materials; ///< of the triangles
-    std::vector<unsigned int> vertex_place, triangle_place;
-
     std::ofstream stream;
     std::uint64_t n_missing = 0; ///< frames of the run that are not in the file, for they were lost
     unsigned int n_frames   = 0; ///< in the file

@@ -12,6 +12,16 @@
 
 namespace Supple
 {
+  /** The scene with the folder of its file: "bar/large". */
+  std::string
+  full_name(const Parameters &parameters);
+
+
+  /** Against gravity at the end of the scene; null without it. */
+  nlohmann::ordered_json
+  upward(const Parameters &parameters);
+
+
   /**
    * Writes report.html, the page of a run that needs no network: from the tables in the folder, the
    * film, the summary and the parameters. Where there is more than a page can show, tables are

@@ -23,6 +23,11 @@ namespace Supple
   brief_number(double value);
 
 
+  /** The page with its data. @param surface as of write_page() */
+  std::string
+  page_text(const Json &data, const std::vector<unsigned char> &surface = {});
+
+
   /**
    * Writes report.html, the page with its data. Its "kind" tells source/report/main.js what is
    * shown.

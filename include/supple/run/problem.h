@@ -19,6 +19,10 @@ namespace Supple
      * not held */
     Problem(const Parameters &scene, MPI_Comm communicator);
 
+    /** The same on a mesh that is there already, with a body that goes on from another state than
+     * the start. @throws InputError */
+    Problem(const Parameters &scene, const std::shared_ptr<const Mesh> &mesh);
+
     /** What integrators work with; it must not outlive the problem. */
     Model
     model();
@@ -26,7 +30,8 @@ namespace Supple
     const Parameters parameters;
     const bool stationary;
     Effort effort;
-    const Mesh mesh;
+    const std::shared_ptr<const Mesh> shared_mesh;
+    const Mesh &mesh;
     const TimeParameters time; ///< those of the scene, with what variable steps must not pass over
     const Body body;
     const Constraints constraints;
@@ -37,6 +42,10 @@ namespace Supple
     std::vector<std::string> warnings; ///< of what was found at the start
 
   private:
+    Problem(const Parameters &scene,
+            const std::shared_ptr<const Mesh> &mesh,
+            bool begins_at_start);
+
     /** @throws InputError */
     void
     require_held_body() const;

@@ -21,6 +21,7 @@
 #include <supple/run/writers.h>
 #include <supple/time/time_integrator.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,6 +44,27 @@ namespace Supple
                bool quiet,
                MPI_Comm communicator);
 
+    /** What one run leaves to another that goes on from its last state: see go_on_from(). */
+    struct Legacy
+    {
+      std::shared_ptr<const Mesh> mesh;
+      State state;
+      double time = 0.; ///< [s]
+      Effort effort;
+      std::vector<Vector> kept; ///< of listeners
+      std::string rest;         ///< of course, cells, diagnostics and listeners, packed
+    };
+
+    /**
+     * Builds all that the rest of a run needs whose scene has changed, but for its mesh.
+     * @param quiet, folder as above
+     * @throws InputError if the scene is wrong
+     */
+    Simulation(const Parameters &scene,
+               const std::shared_ptr<const Mesh> &mesh,
+               const std::string &folder,
+               bool quiet);
+
     /**
      * Runs the scene; to be called once.
      * @param guest a listener beside those that write the results, or null
@@ -51,6 +73,33 @@ namespace Supple
      */
     void
     run(Listener *guest = nullptr);
+
+    /** What run() does before the first step. The files are there then.
+     * @throws InputError as run() */
+    void
+    begin(Listener *guest = nullptr);
+
+    /** What run() does after the last step. */
+    void
+    end();
+
+    /** What run() does where a listener asks to stop. @throws InterruptedError */
+    [[noreturn]] void
+    interrupt();
+
+    /** Begins where another run has stopped, which must be gone, and goes on with its files.
+     * @throws InputError if the state is none of this scene */
+    void
+    go_on_from(const Legacy &legacy, Listener *guest = nullptr);
+
+    /** For another run that goes on from here. Collective. */
+    Legacy
+    leave();
+
+    /** Takes a step, and ends the run where it fails. @return whether no listener asks to stop.
+     * @throws ComputationError with step and time, after all files are complete */
+    bool
+    step();
 
     /** Takes a single step. @return whether no listener asks to stop. @throws ComputationError */
     bool
@@ -64,6 +113,61 @@ namespace Supple
     time() const
     {
       return course.now.time;
+    }
+
+    const Measurement &
+    measurement() const
+    {
+      return course.now;
+    }
+
+    /** A row of probes.csv of the last accepted state. */
+    const std::vector<double> &
+    probe_row() const
+    {
+      return probes_now;
+    }
+
+    /** What is run, with its present state. */
+    const Problem &
+    present() const
+    {
+      return problem;
+    }
+
+    /** Variable steps end at a time [s] at the latest. */
+    void
+    stop_at(const double time)
+    {
+      integrator->stop_at(time);
+    }
+
+    /** Forces of what holds the body, after an observed step [N]. */
+    const Vector &
+    reactions() const
+    {
+      return integrator->reactions();
+    }
+
+    /** Sums of the local errors so far [m]. */
+    double
+    error_estimate() const
+    {
+      return course.error_estimate;
+    }
+
+    /** How far the farthest vertex has been from its place at the start [m]. */
+    double
+    largest_motion() const
+    {
+      return course.largest_motion;
+    }
+
+    /** What the user should know by now, in sentences. */
+    std::vector<std::string>
+    warnings() const
+    {
+      return description().warnings();
     }
 
     /** Displacement and, if the problem is dynamic, velocity after the last accepted step. */
@@ -163,9 +267,15 @@ namespace Supple
     [[noreturn]] void
     refuse(const std::string &what, const Measurement &next);
 
-    /** Ends the run at a step after which a listener asked to stop. @throws InterruptedError */
-    [[noreturn]] void
-    interrupt();
+    Simulation(std::shared_ptr<Problem> of_scene, const std::string &folder, bool quiet);
+
+    /** Does something, and ends the run where it fails, as run() says. @return what it returns */
+    bool
+    tell_failures(const std::function<bool()> &action);
+
+    /** Prints what is run, and has the listeners begin. */
+    void
+    open();
 
     /** Ends the run in the step that failed. @throws ComputationError with step and time */
     [[noreturn]] void
@@ -180,7 +290,8 @@ namespace Supple
 
     Course course;    // first, for it takes the time
     const bool talks; ///< this process writes on the screen
-    Problem problem;
+    const std::shared_ptr<Problem> own_problem;
+    Problem &problem;
     const Probes probes;
     const Profiles profiles;
     const std::unique_ptr<TimeIntegrator> integrator;

@@ -102,6 +102,9 @@ namespace Supple
     ToolTables(const std::string &folder, Effort &effort, const std::vector<ToolParameters> &tools);
 
     static std::vector<std::string>
+    columns();
+
+    static std::vector<std::string>
     files();
 
     void
@@ -109,6 +112,10 @@ namespace Supple
 
     bool
     after_step(const Observation &now) override;
+
+    /** Of a tool after a step. */
+    static std::vector<double>
+    row(const Measurement &now, const ToolReport &tool);
 
   private:
     const std::vector<ToolParameters> &tools;

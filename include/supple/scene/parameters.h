@@ -9,6 +9,7 @@
 #include <supple/observe/probe_parameters.h>
 #include <supple/observe/space_parameters.h>
 #include <supple/output/output_parameters.h>
+#include <supple/scene/live_parameters.h>
 #include <supple/solvers/solver_parameters.h>
 #include <supple/time/time_parameters.h>
 
@@ -45,6 +46,7 @@ namespace Supple
     ProbeParameters probes;
     SpaceParameters space;
     CheckpointParameters checkpoint;
+    LiveParameters live;
 
     ParameterFile file;     ///< where each entry was set
     std::string scene_name; ///< of the file, without folder and ending

@@ -42,6 +42,12 @@ namespace Supple
     void
     load(const nlohmann::json &saved) override;
 
+    void
+    begin_at(const double start) override
+    {
+      time = grid_start = start;
+    }
+
     std::optional<StableStep>
     stable_step() const override
     {
@@ -133,6 +139,13 @@ namespace Supple
     void
     restart();
 
+    /** The time [s] at so many steps of full size from the start. */
+    double
+    grid_time(const unsigned int n_steps) const
+    {
+      return grid_start + n_steps * settings.step;
+    }
+
     /** Sets ARKode to a state without a past, with a first step. @param end_of_run [s] */
     void
     reset(double at, double first_size, double end_of_run);
@@ -200,7 +213,8 @@ namespace Supple
     double set_size        = 0.; ///< the fixed step ARKode knows of [s]
     double last_size       = 0.; ///< of the last fixed step that succeeded [s]
     double size_limit      = std::numeric_limits<double>::max(); ///< of the next step [s]
-    unsigned int grid      = 0;     ///< multiples of the step that are reached
+    double grid_start      = 0.;    ///< of fixed steps [s]
+    unsigned int grid      = 0;     ///< steps of full size that are reached since then
     bool newton_fails      = false; ///< up to the next of them
     bool given_up          = false; ///< up to the next of them: the energy rises
     long newton_iterations = 0;

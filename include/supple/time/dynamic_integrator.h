@@ -76,7 +76,8 @@ namespace Supple
     double
     next_stop(const double from, const double end_of_run) const
     {
-      return std::min(settings.next_stop(from), end_of_run);
+      const double asked = stop > from ? stop : end_of_run;
+      return std::min({settings.next_stop(from), end_of_run, asked});
     }
 
     /** From where on SUNDIALS's decisions are kept. */

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -41,6 +42,21 @@ namespace Supple
      * @throws nlohmann::json::exception, std::out_of_range if @p saved is something else */
     virtual void
     load(const nlohmann::json &saved);
+
+    /** Has the first step begin at a time [s], with the configuration as it is then and without a
+     * past. */
+    virtual void
+    begin_at(const double start)
+    {
+      time = start;
+    }
+
+    /** Has variable steps end at a time [s] at the latest. */
+    void
+    stop_at(const double at)
+    {
+      stop = at;
+    }
 
     bool
     finished() const
@@ -82,6 +98,7 @@ namespace Supple
 
     const Model model;
     double time = 0.; ///< [s]; the load factor of a static problem
+    double stop = std::numeric_limits<double>::max(); ///< of variable steps [s]
 
   private:
     Vector reaction;

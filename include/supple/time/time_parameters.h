@@ -70,6 +70,9 @@ namespace Supple
     std::vector<double> instants; ///< at which a load or a motion jumps or bends [s], ascending
     double stop_interval = 0.;    ///< at whose multiples something is written [s]; 0: nothing
 
+    /** No entry: a live session goes on far beyond the end of its scene. */
+    bool open_ended = false;
+
     void
     declare(dealii::ParameterHandler &prm);
 
@@ -106,6 +109,14 @@ namespace Supple
     /** The time at the end [s]; the load factor of a static problem. */
     double
     end() const;
+
+    /** Where integrators end [s], or the load factor: end(), or a thousand times that if it is open.
+     */
+    double
+    last_end() const
+    {
+      return open_ended ? 1000. * end() : end();
+    }
 
     /** Where a variable step that begins at a time has to end at the latest [s]. */
     double
