@@ -211,18 +211,6 @@ namespace Supple
     }
 
 
-    /** The page may connect to where it comes from, which no report may. */
-    std::string
-    with_connection(std::string page)
-    {
-      const std::string mark = "img-src data: blob:";
-      const auto place       = page.find(mark);
-      if (place == std::string::npos)
-        throw WriteError("The page of a session has no policy for what it may load.");
-      return page.replace(place, mark.size(), mark + "; connect-src 'self'");
-    }
-
-
     /** The files that an entry names, set apart by commas, as they are called from another folder.
      */
     std::string
@@ -247,7 +235,7 @@ namespace Supple
     if (dealii::Utilities::MPI::this_mpi_process(session.now().present().mesh.communicator) != 0)
       return {};
     LiveContent content;
-    content.page = with_connection(page_text(description(session, surface)));
+    content.page = page_text(description(session, surface));
     append(content.surface, surface.rest.data(), surface.rest.size());
     for (const auto &triangle : surface.triangles)
       append(content.surface, triangle.data(), 3);

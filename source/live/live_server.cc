@@ -50,6 +50,18 @@ namespace Supple
     }
 
 
+    /** A page that may connect to this server, as no report may connect to anything. */
+    std::string
+    with_connection(std::string page, const std::string &host)
+    {
+      const std::string nothing = "connect-src 'none'";
+      const auto place          = page.find(nothing);
+      if (place == std::string::npos)
+        throw WriteError("The page of a session has no policy for what it may connect to.");
+      return page.replace(place, nothing.size(), "connect-src 'self' ws://" + host);
+    }
+
+
     /** Takes as long whatever differs. */
     bool
     are_equal(const std::string &one, const std::string &other)
@@ -294,9 +306,9 @@ namespace Supple
   class LiveServer::Thread
   {
   public:
-    Thread(Mailbox &mailbox, LiveContent content)
+    Thread(Mailbox &mailbox, LiveContent of_session)
       : mailbox(mailbox)
-      , content(std::move(content))
+      , content(std::move(of_session))
       , acceptor(io)
       , token(random_token())
     {
@@ -313,6 +325,7 @@ namespace Supple
           throw InputError(std::string("--live: no port of 127.0.0.1 can be had: ") +
                            error.what() + ".");
         }
+      content.page   = with_connection(std::move(content.page), host);
       mailbox.notify = [this] {
         asio::post(io, [this] {
           if (const auto open = socket.lock())
@@ -442,7 +455,7 @@ namespace Supple
     }
 
     Mailbox &mailbox;
-    const LiveContent content;
+    LiveContent content;
     asio::io_context io{1};
     tcp::acceptor acceptor;
     asio::steady_timer last_moments{io};
