@@ -24,8 +24,8 @@ function directions(surface, up) {
 }
 
 export class BodyView {
-  /** @param moved is called with the camera whenever the body must be drawn anew */
-  constructor(canvas, surface, up, moved) {
+  /** @param moved is called with the camera whenever the body was drawn anew */
+  constructor(canvas, surface, up, moved, keepPicture = true) {
     this.canvas = canvas;
     this.surface = surface;
     this.moved = moved;
@@ -33,7 +33,7 @@ export class BodyView {
     this.enlarged = 1;
     this.ofInstant = false;
     this.where = surface.at(0);
-    this.renderer = new WebGLRenderer({canvas, antialias: devicePixelRatio < 2, preserveDrawingBuffer: true});
+    this.renderer = new WebGLRenderer({canvas, antialias: devicePixelRatio < 2, preserveDrawingBuffer: keepPicture});
     this.renderer.debug.checkShaderErrors = false; // it would wait for each shader
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(24, 1, 0.01, 100);
@@ -53,14 +53,21 @@ export class BodyView {
     this.reset();
   }
 
+  /** Each triangle has corners of its own, for it has a colour of its own. */
+  makeGeometry() {
+    const {triangles} = this.surface, geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(new Float32Array(9 * triangles), 3));
+    geometry.setAttribute('color', new BufferAttribute(new Float32Array(9 * triangles), 3));
+    return geometry;
+  }
+
   makeBody() {
     const {vertices, triangles, corners} = this.surface;
     this.u = new Float32Array(3 * vertices);
     this.places = new Float32Array(3 * vertices);
     this.values = new Float32Array(triangles);
-    this.geometry = new BufferGeometry();
-    this.geometry.setAttribute('position', new BufferAttribute(new Float32Array(9 * triangles), 3));
-    this.geometry.setAttribute('color', new BufferAttribute(new Float32Array(9 * triangles), 3));
+    this.linePlaces = new BufferAttribute(this.places, 3);
+    this.geometry = this.makeGeometry();
     const material = new MeshLambertMaterial({vertexColors: true, flatShading: true, side: DoubleSide,
       polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1});
     this.body = new Mesh(this.geometry, material);
@@ -73,7 +80,6 @@ export class BodyView {
         edges.set(a * vertices + b, [a, b]);
       }
     const lines = new BufferGeometry();
-    this.linePlaces = new BufferAttribute(this.places, 3);
     lines.setAttribute('position', this.linePlaces);
     lines.setIndex([...edges.values()].flat());
     this.wires = new LineSegments(lines, new LineBasicMaterial({transparent: true, opacity: 0.55}));
@@ -254,15 +260,24 @@ export class BodyView {
     return this.table;
   }
 
-  /** The value under a point of the screen, or null. */
-  valueAt(clientX, clientY) {
+  /** The line of sight through a point of the screen. */
+  sight(clientX, clientY) {
     const box = this.canvas.getBoundingClientRect();
-    const point = new Vector2(2 * (clientX - box.left) / box.width - 1, 1 - 2 * (clientY - box.top) / box.height);
     const caster = new Raycaster();
-    caster.setFromCamera(point, this.camera);
+    caster.setFromCamera(new Vector2(2 * (clientX - box.left) / box.width - 1, 1 - 2 * (clientY - box.top) / box.height), this.camera);
+    return caster;
+  }
+
+  /** Where it meets the body first; undefined if it does not. */
+  hit(clientX, clientY) {
     this.geometry.boundingSphere = null;
     this.geometry.boundingBox = null;
-    const [hit] = caster.intersectObject(this.body);
+    return this.sight(clientX, clientY).intersectObject(this.body)[0];
+  }
+
+  /** The value under a point of the screen, or null. */
+  valueAt(clientX, clientY) {
+    const hit = this.hit(clientX, clientY);
     return hit ? this.cornerValue()(3 * hit.faceIndex) : null;
   }
 
@@ -272,8 +287,12 @@ export class BodyView {
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
-      this.renderer.render(this.scene, this.camera);
-      this.moved(this.camera);
+      this.draw();
     });
+  }
+
+  draw() {
+    this.renderer.render(this.scene, this.camera);
+    this.moved(this.camera);
   }
 }

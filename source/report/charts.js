@@ -10,11 +10,11 @@ const DASHES = [[], [7, 4], [2, 3]];
 const FONT = '12px system-ui, sans-serif';
 
 /** Colour and dash of a number of lines, as many as there may be. */
-function lineStyle(number) {
+export function lineStyle(number) {
   return {stroke: () => styleColour(PALETTE[number % PALETTE.length]), dash: DASHES[Math.floor(number / PALETTE.length) % DASHES.length]};
 }
 
-function axis(label, extra = {}) {
+export function axis(label, extra = {}) {
   return {label, labelFont: FONT, font: FONT, labelSize: 18, stroke: () => styleColour('--quiet'),
     grid: {stroke: () => styleColour('--grid'), width: 1}, ticks: {stroke: () => styleColour('--grid'), width: 1, size: 5}, ...extra};
 }
@@ -35,14 +35,20 @@ function largest(columns) {
 const charts = [];
 onThemeChange(() => charts.forEach((chart) => chart.redraw()));
 
-function mount(options, data, holder) {
+export function mount(options, data, holder) {
   const width = () => Math.max(200, holder.clientWidth);
   const chart = new uPlot({...options, width: width() || 400}, data, holder);
   new ResizeObserver(() => {
-    if (holder.clientWidth > 0 && Math.abs(width() - chart.width) > 1) chart.setSize({width: width(), height: options.height});
+    if (charts.includes(chart) && holder.clientWidth > 0 && Math.abs(width() - chart.width) > 1) chart.setSize({width: width(), height: options.height});
   }).observe(holder);
   charts.push(chart);
   return chart;
+}
+
+/** Takes a chart off the page. */
+export function unmount(chart) {
+  charts.splice(charts.indexOf(chart), 1);
+  chart.destroy();
 }
 
 /** Curves of one quantity over time, or over something that rises with it, with a line at the player's. */

@@ -16,7 +16,7 @@ function enlargement(surface) {
 }
 
 /** x, y and z as they lie on the screen. */
-function axesFigure() {
+export function axesFigure() {
   const names = ['x', 'y', 'z'];
   const figure = drawing({class: 'axes', viewBox: '-30 -30 60 60', width: 60, height: 60, 'aria-hidden': 'true'},
     ...names.map(() => ['line', {x1: 0, y1: 0, x2: 0, y2: 0}]), ...names.map(() => ['text', {'text-anchor': 'middle', dy: '0.35em'}]));
