@@ -191,9 +191,9 @@ namespace Supple
       mailbox.wait_until(std::min(pace.due(session->now().time()), now + nap));
 
     Orders orders;
+    const auto due   = pace.due(session->now().time());
     const auto later = Pace::Clock::now();
-    orders.step =
-      single_steps > 0 || (running && pace.due(session->now().time()) <= Pace::Clock::now());
+    orders.step      = single_steps > 0 || (running && due <= later);
     orders.requests = mailbox.take_requests();
     orders.arrival  = mailbox.take_arrival();
     orders.frame    = later - last_frame >= between_frames && mailbox.wants_frame();

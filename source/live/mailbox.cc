@@ -139,8 +139,7 @@ namespace Supple
           const auto oldest = std::find_if(texts.begin(), texts.end(), [](const auto &waiting) {
             return waiting.second;
           });
-          if (oldest != texts.end())
-            texts.erase(oldest);
+          texts.erase(oldest == texts.end() ? texts.begin() : oldest);
         }
       texts.emplace_back(std::move(text), droppable);
     }

@@ -76,12 +76,12 @@ namespace Supple
     void
     put_frame(Bytes frame);
 
-    /** @param droppable rows, of which the oldest go where there is no room */
+    /** Where there is no room the oldest one goes, of those that are droppable if there are any. */
     void
     put_text(std::string text, bool droppable);
 
   private:
-    static constexpr std::size_t most_requests = 64, most_texts = 64;
+    static constexpr std::size_t most_requests = 64, most_texts = 16;
 
     std::mutex mutex;
     std::condition_variable changed;
