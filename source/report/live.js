@@ -38,7 +38,7 @@ class Session {
     this.tools = new Tools(data.tools, data.up, surface, connection);
     this.hand = new Hand(this.stage, connection, this.tools, (text) => this.tell(text));
     this.stage.hand = this.hand;
-    this.hands = new HandControls(this.hand, data.tools.length > 0);
+    this.hands = new HandControls(this.hand, data.tools.length > 0, (text) => { this.stage.hint.textContent = text; });
     this.clock = new Clock(this.say, data.speed);
     this.entries = new Entries(data.entries, connection);
     this.again = new Again(this.say);

@@ -24,7 +24,7 @@ class Growing {
     Object.assign(this, {title, unit, table, symbol: null, drawn: -1});
     this.heading = element('h3', {}, title);
     this.holder = element('div', {class: 'chart'});
-    this.nothing = element('p', {class: 'note', hidden: true}, 'Nothing so far.');
+    this.nothing = element('span', {class: 'nothing', hidden: true}, 'nothing so far');
     this.root = element('section', {class: 'curves', 'aria-label': title}, this.heading, this.nothing, this.holder);
   }
 

@@ -42,7 +42,7 @@ class Widget {
       help.hidden = !help.hidden;
       more.setAttribute('aria-expanded', String(!help.hidden));
     });
-    const unit = this.unit && this.unit !== 'none' ? element('span', {class: 'unit'}, this.unit) : null;
+    const unit = this.unit && this.unit !== 'none' ? element('span', {class: 'unit'}, this.unit.replaceAll('^2', '²').replaceAll('^3', '³')) : null;
     this.root = element('div', {class: 'entry', role: 'group', 'aria-label': this.name},
       element('label', {for: this.id, title: this.meaning}, this.name), element('span', {class: 'fields'}, this.fields, unit), this.slider ?? element('span', {class: 'no-slider'}), more, this.message, help);
     this.show(this.value);

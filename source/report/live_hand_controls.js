@@ -3,7 +3,7 @@
 import {element} from './dom.js';
 
 const MODES = [['pull', 'Pull', 'A spring pulls a vertex (1)'], ['hold', 'Hold', 'A vertex is held and moved; a click releases it (2)'],
-  ['region', 'Push a region', 'A spring pulls all vertices around (3)'], ['tool', 'Move tools', 'A rigid tool is moved along the screen (4)']];
+  ['region', 'Region', 'A spring pulls all vertices around (3)'], ['tool', 'Tools', 'A rigid tool is moved along the screen (4)']];
 const HINTS = {
   pull: 'Drag a vertex: a spring pulls it. Beside the body dragging turns the view.',
   hold: 'Click on a vertex to hold it, drag it to move it; a click on its mark releases it.',
@@ -12,11 +12,12 @@ const HINTS = {
 };
 
 export class HandControls {
-  constructor(hand, hasTools) {
+  /** @param hint is called with a sentence */
+  constructor(hand, hasTools, hint) {
     this.hand = hand;
+    this.hint = hint;
     this.modes = MODES.filter(([mode]) => mode !== 'tool' || hasTools);
     this.buttons = this.modes.map(([mode, text, title]) => element('button', {type: 'button', class: 'toggle', title, 'aria-pressed': 'false', onclick: () => this.choose(mode)}, text));
-    this.hint = element('p', {class: 'note'});
     const slider = element('input', {type: 'range', min: 0.01, max: 0.5, step: 0.01, value: hand.radius});
     const radius = element('output', {});
     const showRadius = () => {
@@ -30,7 +31,7 @@ export class HandControls {
     this.spring = this.makeSpring();
     this.release = element('button', {type: 'button', title: 'Lets go of all vertices (Esc)', onclick: () => hand.releaseAll()}, 'Release all');
     this.root = element('div', {class: 'hand-controls', role: 'group', 'aria-label': 'The hand'},
-      element('span', {class: 'buttons'}, this.buttons, this.release), element('div', {class: 'spring'}, this.region, this.spring), this.hint);
+      element('span', {class: 'buttons'}, this.buttons), this.region, this.spring, this.release);
     this.choose('pull');
   }
 
@@ -53,7 +54,7 @@ export class HandControls {
     this.modes.forEach(([name], i) => this.buttons[i].setAttribute('aria-pressed', String(name === mode)));
     this.region.hidden = mode !== 'region';
     this.spring.hidden = mode !== 'pull' && mode !== 'region';
-    this.hint.textContent = HINTS[mode];
+    this.hint(HINTS[mode]);
   }
 
   /** By the keys 1, 2, 3, 4. */

@@ -18,6 +18,15 @@ export class Connection {
     this.later = new Map();
     this.frame = null;
     this.owed = 0;
+    // A page that is kept for the way back in the history must leave the session to others.
+    addEventListener('pagehide', () => {
+      this.away = true;
+      this.socket?.close();
+    });
+    addEventListener('pageshow', ({persisted}) => {
+      this.away = false;
+      if (persisted) this.open();
+    });
   }
 
   address(path) {
@@ -38,7 +47,7 @@ export class Connection {
       this.told.changed('open');
     };
     this.socket.onclose = ({reason}) => {
-      if (this.over) return;
+      if (this.over || this.away) return;
       if (wasOpen) this.told.changed('lost', reason);
       else this.explain();
       setTimeout(() => this.open(), AGAIN);
