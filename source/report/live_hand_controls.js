@@ -3,12 +3,14 @@
 import {element} from './dom.js';
 
 const MODES = [['pull', 'Pull', 'A spring pulls a vertex (1)'], ['hold', 'Hold', 'A vertex is held and moved; a click releases it (2)'],
-  ['region', 'Region', 'A spring pulls all vertices around (3)'], ['tool', 'Tools', 'A rigid tool is moved along the screen (4)']];
+  ['region', 'Region', 'A spring pulls all vertices around (3)'], ['tool', 'Tools', 'A rigid tool is moved along the screen (4)'],
+  ['view', 'View', 'The view is turned, on the body too (5, or Alt while dragging)']];
 const HINTS = {
   pull: 'Drag a vertex: a spring pulls it. Beside the body dragging turns the view.',
   hold: 'Click on a vertex to hold it, drag it to move it; a click on its mark releases it.',
   region: 'Drag a vertex: all that are near it at rest are pulled with it.',
   tool: 'Drag a tool along the screen; its slider moves it along its axis.',
+  view: 'Dragging turns the view, two fingers or the wheel zoom, the right button moves it.',
 };
 
 export class HandControls {
@@ -57,8 +59,9 @@ export class HandControls {
     this.hint(HINTS[mode]);
   }
 
-  /** By the keys 1, 2, 3, 4. */
+  /** By the keys 1 to 5. */
   key(number) {
-    if (this.modes[number - 1]) this.choose(this.modes[number - 1][0]);
+    const mode = MODES[number - 1];
+    if (this.modes.includes(mode)) this.choose(mode[0]);
   }
 }
