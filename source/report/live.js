@@ -135,6 +135,7 @@ class Session {
       this.hand.forgetAll();
       this.surface.farthest = this.surface.farthestNow;
       this.tools.touched = false;
+      this.tools.take(this.charts.tools);
       this.settled = false;
     }
     this.session = session;

@@ -55,7 +55,7 @@ export class Hand {
   }
 
   press(event) {
-    if (event.button !== 0 || this.drag || this.mode === 'view' || event.ctrlKey || event.metaKey || event.shiftKey || event.altKey) return;
+    if (event.button !== 0 || !event.isPrimary || this.drag || this.mode === 'view' || event.ctrlKey || event.metaKey || event.shiftKey || event.altKey) return;
     this.drag = this.mode === 'tool' ? this.takeTool(event) : this.takeVertex(event);
     if (!this.drag) return;
     Object.assign(this.drag, {pointer: event.pointerId, from: [event.clientX, event.clientY], moved: false});

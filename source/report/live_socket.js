@@ -90,12 +90,19 @@ export class Connection {
     refused?.(message);
   }
 
-  /** The newest frame, once. */
+  /** The newest frame, once. One of another body ends the session. */
   takeFrame() {
-    if (!this.frame) return null;
-    const frame = readFrame(this.frame, this.shape);
+    const {frame} = this;
     this.frame = null;
-    return frame;
+    if (!frame || this.over) return null;
+    try {
+      return readFrame(frame, this.shape);
+    } catch (error) {
+      this.over = true;
+      this.socket.close();
+      this.told.ended(error);
+      return null;
+    }
   }
 
   /** That the frame was drawn, and those before it were passed over: there is room for as many. */
