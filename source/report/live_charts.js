@@ -115,7 +115,7 @@ class TimeCurves extends Growing {
 /** The estimate of the error in time beside the seconds that were computed. */
 class ErrorCurves extends Growing {
   constructor(table, surface) {
-    super('Error in time so far, and seconds of computing', 'm', table);
+    super('Error in time, and seconds of computing', 'm', table);
     this.surface = surface;
     this.sentence = element('p', {class: 'note'});
     this.root.append(this.sentence);
