@@ -38,7 +38,7 @@ class Session {
     this.tools = new Tools(data.tools, data.up, surface, connection);
     this.hand = new Hand(this.stage, connection, this.tools, (text) => this.tell(text));
     this.stage.hand = this.hand;
-    this.hands = new HandControls(this.hand, data.tools.length > 0);
+    this.hands = new HandControls(this.hand, data.tools.length > 0, (text) => { this.stage.hint.textContent = text; });
     this.clock = new Clock(this.say, data.speed);
     this.entries = new Entries(data.entries, connection);
     this.again = new Again(this.say);
@@ -53,7 +53,7 @@ class Session {
 
   root() {
     const {data} = this;
-    const keys = 'Keys: space runs and pauses, s makes a single step, Shift+R starts again, Esc releases all, 1 to 4 choose what the hand does; w mesh, g undeformed; in the view arrows turn, + − zoom, 0 resets.';
+    const keys = 'Keys: space runs and pauses, s makes a single step, Shift+R starts again, Esc releases all, 1 to 5 choose what the hand does, Alt and dragging turns the view on the body too; w mesh, g undeformed; in the view arrows turn, + − zoom, 0 resets.';
     const end = element('button', {type: 'button', onclick: () => this.say('quit')}, 'End the session');
     this.showFacts();
     return [element('header', {}, element('h1', {}, data.name, this.badge), this.facts), this.notices,
@@ -77,6 +77,8 @@ class Session {
     this.badge.textContent = text;
     this.badge.className = `state ${kind}`;
     this.stage.showCover(STATES[this.status]?.[2]);
+    for (const root of [this.clock.root, this.hands.root, this.tools.root, this.again.root]) if (root) root.inert = this.status !== 'open';
+    if (this.entries.root) this.entries.root.inert = this.status === 'ended' || this.status === 'foreign';
     document.title = `${this.data.name}, ${text} – Supple`;
   }
 
@@ -118,7 +120,9 @@ class Session {
     this.connection.drawn();
     this.newest = frame;
     this.clock.show(frame);
-    if (!this.settled) this.tools.settle(frame.poses);
+    if (!this.settled || !this.tools.touched) this.tools.settle(frame.poses);
+    if (frame.command !== this.command) this.entries.take(this.state.entries, frame.command);
+    this.command = frame.command;
     this.settled = true;
     if (frame.session !== this.session) this.begin(frame.session);
   }
@@ -130,6 +134,8 @@ class Session {
       this.again.clear();
       this.hand.forgetAll();
       this.surface.farthest = this.surface.farthestNow;
+      this.tools.touched = false;
+      this.tools.take(this.charts.tools);
       this.settled = false;
     }
     this.session = session;
@@ -141,7 +147,7 @@ class Session {
     if (message.running) this.failure = null;
     this.clock.showRunning(message.running);
     this.clock.showSpeed(message.speed);
-    this.entries.take(message.entries ?? {}, this.newest?.command);
+    this.entries.take(message.entries ?? {}, this.command);
     this.showFacts();
     this.showBadge();
     this.showNotices();
@@ -179,7 +185,7 @@ class Session {
     else if (event.key === 'Escape') this.hand.releaseAll();
     else if (event.key === 'w') this.stage.wireButton.click();
     else if (event.key === 'g') this.stage.ghostButton.click();
-    else if (/^[1-4]$/.test(event.key)) this.hands.key(Number(event.key));
+    else if (/^[1-5]$/.test(event.key)) this.hands.key(Number(event.key));
     else return;
     event.preventDefault();
   }
@@ -205,8 +211,15 @@ function makeHooks(session) {
       const distance = (v) => Math.hypot(...[0, 1, 2].map((d) => surface.rest[3 * v + d] - place[d]));
       return surface.numbers[[...surface.numbers.keys()].reduce((best, v) => (distance(v) < distance(best) ? v : best), 0)];
     },
+    /** Where a vertex is at rest. */
+    restOf: (number) => [...surface.rest.subarray(3 * surface.placeOfNumber.get(number), 3 * surface.placeOfNumber.get(number) + 3)],
     /** {vertex, force, mean, size} of the hand that was heard of last, or null. */
     lastForce: () => hand.last ?? null,
+    /** The newest row of probes.csv, by its columns. */
+    probes: () => {
+      const {columns, length} = session.charts.probes;
+      return Object.fromEntries(Object.entries(columns).map(([name, column]) => [name, column[length - 1]]));
+    },
     /** Numbers of the vertices in hands. */
     grabbed: () => [...hand.pulls.keys()],
   };

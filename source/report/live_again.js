@@ -9,7 +9,7 @@ export class Again {
     this.say = say;
     this.button = element('button', {type: 'button', onclick: () => this.press()}, 'Again with half the step');
     this.progress = element('progress', {max: 1, value: 0, hidden: true, 'aria-label': 'Progress of the second run'});
-    this.result = element('p', {class: 'note', role: 'status'}, 'Does all that you have done once more, with steps half as large: how far both end apart is about its error in time.');
+    this.result = element('p', {class: 'note', role: 'status'}, 'Does all that you have done once more with half the step: how far apart both end tells the error in time.');
     this.holder = element('div', {class: 'chart', hidden: true});
     this.root = element('section', {class: 'again', 'aria-label': 'Error in time of the session'}, element('div', {class: 'controls'}, this.button, this.progress), this.result, this.holder);
   }
@@ -30,8 +30,8 @@ export class Again {
   }
 
   tell({difference, relative, seconds, probes = []}) {
-    this.result.textContent = `With half the step no vertex ends more than ${quantity(difference, 'm', 2)} from where it is${Number.isFinite(relative) ? `, ${digits(100 * relative, 2)} % of the largest motion` : ''}: `
-      + `about so large is the error in time of what you have just done. The second run took ${quantity(seconds, 's', 2)}.`;
+    this.result.textContent = `With half the step all vertices end within ${quantity(difference, 'm', 2)} of where they are${Number.isFinite(relative) ? `, ${digits(100 * relative, 2)} % of the largest motion` : ''}: `
+      + `the error in time of what you have just done is about as large. The second run took ${quantity(seconds, 's', 2)}.`;
     if (this.chart) unmount(this.chart);
     this.chart = null;
     this.holder.hidden = probes.length < 2;

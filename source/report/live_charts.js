@@ -24,7 +24,7 @@ class Growing {
     Object.assign(this, {title, unit, table, symbol: null, drawn: -1});
     this.heading = element('h3', {}, title);
     this.holder = element('div', {class: 'chart'});
-    this.nothing = element('p', {class: 'note', hidden: true}, 'Nothing so far.');
+    this.nothing = element('span', {class: 'nothing', hidden: true}, 'nothing so far');
     this.root = element('section', {class: 'curves', 'aria-label': title}, this.heading, this.nothing, this.holder);
   }
 
@@ -115,7 +115,7 @@ class TimeCurves extends Growing {
 /** The estimate of the error in time beside the seconds that were computed. */
 class ErrorCurves extends Growing {
   constructor(table, surface) {
-    super('Error in time so far, and seconds of computing', 'm', table);
+    super('Error in time, and seconds of computing', 'm', table);
     this.surface = surface;
     this.sentence = element('p', {class: 'note'});
     this.root.append(this.sentence);

@@ -8,6 +8,12 @@ const PACE = 150; // ms between two values of a slider that is dragged
 
 const isNumber = (text) => NUMBER.test(text.trim());
 
+/** Whether two texts are the same numbers, or the same. */
+function same(a, b) {
+  const [p, q] = [a, b].map((text) => text.split(',').map((part) => part.trim()));
+  return p.length === q.length && p.every((part, i) => part === q[i] || (isNumber(part) && Number(part) === Number(q[i])));
+}
+
 /** What values a slider has: even between two bounds, or by factors from a tenth to ten times; null where neither makes sense. */
 function sliderScale({value, range}) {
   const bounds = range.match(BETWEEN)?.slice(1).map(Number);
@@ -42,7 +48,7 @@ class Widget {
       help.hidden = !help.hidden;
       more.setAttribute('aria-expanded', String(!help.hidden));
     });
-    const unit = this.unit && this.unit !== 'none' ? element('span', {class: 'unit'}, this.unit) : null;
+    const unit = this.unit && this.unit !== 'none' ? element('span', {class: 'unit'}, this.unit.replaceAll('^2', '²').replaceAll('^3', '³')) : null;
     this.root = element('div', {class: 'entry', role: 'group', 'aria-label': this.name},
       element('label', {for: this.id, title: this.meaning}, this.name), element('span', {class: 'fields'}, this.fields, unit), this.slider ?? element('span', {class: 'no-slider'}), more, this.message, help);
     this.show(this.value);
@@ -94,17 +100,23 @@ class Widget {
   commit() {
     clearTimeout(this.sliding);
     this.sliding = null;
-    if (this.text === this.said || (this.text === this.shown && !this.said)) return;
-    const text = this.text;
+    const {text} = this;
+    if (text === this.said) return;
+    if (text === this.shown && !this.said) {
+      this.back();
+      return;
+    }
+    this.waiting = this.said ? this.waiting + 1 : 1;
     this.said = text;
-    this.number = this.say(text, ({message}) => this.refuse(text, message));
-    if (this.number === 0) this.refuse(text, 'The program does not hear: the connection is lost.');
+    this.number = this.say(text, ({number, message}) => this.refuse(number, message));
+    if (this.number === 0) this.refuse(0, 'The program does not hear: the connection is lost.');
   }
 
-  refuse(text, message) {
-    if (this.said !== text) return;
+  /** An answer to an older command tells nothing of what stands there now. */
+  refuse(number, message) {
+    if (this.number !== number) return;
     this.said = null;
-    this.refused = text;
+    this.refused = true;
     this.message.textContent = `${message} Escape brings back ${this.value || 'what was there'}.`;
     this.message.hidden = false;
     this.fields.forEach((field) => field.setAttribute('aria-invalid', 'true'));
@@ -121,7 +133,7 @@ class Widget {
     const parts = this.vector ? value.split(',').map((part) => part.trim()) : [value];
     this.fields.forEach((field, i) => { field.value = parts[i] ?? ''; });
     this.shown = this.text;
-    this.refused = null;
+    this.refused = false;
     this.message.hidden = true;
     this.fields.forEach((field) => field.removeAttribute('aria-invalid'));
     if (this.slider && document.activeElement !== this.slider) this.slider.value = this.scale.toSlider(Number(value));
@@ -132,8 +144,8 @@ class Widget {
   take(value, command) {
     const changed = value !== this.value;
     this.value = value;
-    if (this.said !== null && this.said !== undefined) {
-      if (!changed && !(command >= this.number)) return;
+    if (this.said) {
+      if (!(changed && (this.waiting === 1 || same(value, this.said))) && !(command >= this.number)) return;
       const typedOn = this.text !== this.said;
       this.said = null;
       if (typedOn) return;

@@ -22,9 +22,10 @@ export class Hand {
     this.drag = null;
     const {frame} = stage;
     frame.addEventListener('pointerdown', (event) => this.press(event), {capture: true});
-    frame.addEventListener('pointermove', (event) => this.move(event), {capture: true});
-    frame.addEventListener('pointerup', (event) => this.letGo(event), {capture: true});
-    frame.addEventListener('pointercancel', (event) => this.letGo(event), {capture: true});
+    // A drag goes on beside the body, and ends wherever it is let go.
+    window.addEventListener('pointermove', (event) => this.move(event), {capture: true});
+    window.addEventListener('pointerup', (event) => this.letGo(event), {capture: true});
+    window.addEventListener('pointercancel', (event) => this.letGo(event), {capture: true});
     frame.addEventListener('pointerleave', () => this.point(null));
   }
 
@@ -54,13 +55,12 @@ export class Hand {
   }
 
   press(event) {
-    if (event.button !== 0 || this.drag || event.ctrlKey || event.metaKey || event.shiftKey) return;
+    if (event.button !== 0 || !event.isPrimary || this.drag || this.mode === 'view' || event.ctrlKey || event.metaKey || event.shiftKey || event.altKey) return;
     this.drag = this.mode === 'tool' ? this.takeTool(event) : this.takeVertex(event);
     if (!this.drag) return;
     Object.assign(this.drag, {pointer: event.pointerId, from: [event.clientX, event.clientY], moved: false});
     this.view.controls.enabled = false;
     this.view.canvas.focus({preventScroll: true});
-    this.stage.frame.setPointerCapture(event.pointerId);
     this.point(null);
   }
 
@@ -93,7 +93,7 @@ export class Hand {
   move(event) {
     const {drag, view} = this;
     if (!drag) {
-      if (event.buttons === 0 && event.pointerType === 'mouse') this.point(event);
+      if (event.buttons === 0 && event.pointerType === 'mouse' && event.target === view.canvas) this.point(event);
       return;
     }
     if (event.pointerId !== drag.pointer) return;
@@ -166,7 +166,7 @@ export class Hand {
 
   /** What would be taken at the pointer. */
   point(event) {
-    if (!event) return this.stage.showPointed(null);
+    if (!event || this.mode === 'view') return this.stage.showPointed(null);
     if (this.pointing) return undefined;
     this.pointing = true;
     const {clientX, clientY, offsetX, offsetY} = event;

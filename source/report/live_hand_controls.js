@@ -3,20 +3,23 @@
 import {element} from './dom.js';
 
 const MODES = [['pull', 'Pull', 'A spring pulls a vertex (1)'], ['hold', 'Hold', 'A vertex is held and moved; a click releases it (2)'],
-  ['region', 'Push a region', 'A spring pulls all vertices around (3)'], ['tool', 'Move tools', 'A rigid tool is moved along the screen (4)']];
+  ['region', 'Region', 'A spring pulls all vertices around (3)'], ['tool', 'Tools', 'A rigid tool is moved along the screen (4)'],
+  ['view', 'View', 'The view is turned, on the body too (5, or Alt while dragging)']];
 const HINTS = {
   pull: 'Drag a vertex: a spring pulls it. Beside the body dragging turns the view.',
   hold: 'Click on a vertex to hold it, drag it to move it; a click on its mark releases it.',
   region: 'Drag a vertex: all that are near it at rest are pulled with it.',
   tool: 'Drag a tool along the screen; its slider moves it along its axis.',
+  view: 'Dragging turns the view, two fingers or the wheel zoom, the right button moves it.',
 };
 
 export class HandControls {
-  constructor(hand, hasTools) {
+  /** @param hint is called with a sentence */
+  constructor(hand, hasTools, hint) {
     this.hand = hand;
+    this.hint = hint;
     this.modes = MODES.filter(([mode]) => mode !== 'tool' || hasTools);
     this.buttons = this.modes.map(([mode, text, title]) => element('button', {type: 'button', class: 'toggle', title, 'aria-pressed': 'false', onclick: () => this.choose(mode)}, text));
-    this.hint = element('p', {class: 'note'});
     const slider = element('input', {type: 'range', min: 0.01, max: 0.5, step: 0.01, value: hand.radius});
     const radius = element('output', {});
     const showRadius = () => {
@@ -30,7 +33,7 @@ export class HandControls {
     this.spring = this.makeSpring();
     this.release = element('button', {type: 'button', title: 'Lets go of all vertices (Esc)', onclick: () => hand.releaseAll()}, 'Release all');
     this.root = element('div', {class: 'hand-controls', role: 'group', 'aria-label': 'The hand'},
-      element('span', {class: 'buttons'}, this.buttons, this.release), element('div', {class: 'spring'}, this.region, this.spring), this.hint);
+      element('span', {class: 'buttons'}, this.buttons), this.region, this.spring, this.release);
     this.choose('pull');
   }
 
@@ -53,11 +56,12 @@ export class HandControls {
     this.modes.forEach(([name], i) => this.buttons[i].setAttribute('aria-pressed', String(name === mode)));
     this.region.hidden = mode !== 'region';
     this.spring.hidden = mode !== 'pull' && mode !== 'region';
-    this.hint.textContent = HINTS[mode];
+    this.hint(HINTS[mode]);
   }
 
-  /** By the keys 1, 2, 3, 4. */
+  /** By the keys 1 to 5. */
   key(number) {
-    if (this.modes[number - 1]) this.choose(this.modes[number - 1][0]);
+    const mode = MODES[number - 1];
+    if (this.modes.includes(mode)) this.choose(mode[0]);
   }
 }

@@ -51,6 +51,7 @@ export class Marks {
     [['x1', what.vertex.x], ['y1', what.vertex.y], ['x2', what.hand.x], ['y2', what.hand.y]].forEach(([name, value]) => line.setAttribute(name, value));
     if (label.hidden) return;
     label.textContent = quantity(what.force, 'N', 3);
-    label.style.transform = `translate(${what.hand.x + 12}px, ${what.hand.y - 26}px)`;
+    const beyond = what.hand.x + 90 > this.root.clientWidth; // the label stands on the other side
+    label.style.transform = `translate(${what.hand.x + (beyond ? -12 : 12)}px, ${Math.max(2, what.hand.y - 26)}px) translateX(${beyond ? '-100%' : '0'})`;
   }
 }

@@ -18,6 +18,15 @@ export class Connection {
     this.later = new Map();
     this.frame = null;
     this.owed = 0;
+    // A page that is kept for the way back in the history must leave the session to others.
+    addEventListener('pagehide', () => {
+      this.away = true;
+      this.socket?.close();
+    });
+    addEventListener('pageshow', ({persisted}) => {
+      this.away = false;
+      if (persisted) this.open();
+    });
   }
 
   address(path) {
@@ -38,7 +47,7 @@ export class Connection {
       this.told.changed('open');
     };
     this.socket.onclose = ({reason}) => {
-      if (this.over) return;
+      if (this.over || this.away) return;
       if (wasOpen) this.told.changed('lost', reason);
       else this.explain();
       setTimeout(() => this.open(), AGAIN);
@@ -81,12 +90,19 @@ export class Connection {
     refused?.(message);
   }
 
-  /** The newest frame, once. */
+  /** The newest frame, once. One of another body ends the session. */
   takeFrame() {
-    if (!this.frame) return null;
-    const frame = readFrame(this.frame, this.shape);
+    const {frame} = this;
     this.frame = null;
-    return frame;
+    if (!frame || this.over) return null;
+    try {
+      return readFrame(frame, this.shape);
+    } catch (error) {
+      this.over = true;
+      this.socket.close();
+      this.told.ended(error);
+      return null;
+    }
   }
 
   /** That the frame was drawn, and those before it were passed over: there is room for as many. */

@@ -20,9 +20,10 @@ export class LiveStage {
     const axes = axesFigure();
     this.marks = new Marks();
     this.pointed = element('div', {class: 'pointed', hidden: true});
-    this.note = element('div', {class: 'scale-note', role: 'status'});
+    this.note = element('div', {});
+    this.hint = element('div', {});
     this.cover = element('div', {class: 'cover', role: 'status', hidden: true});
-    this.frame = element('div', {class: 'stage'}, canvas, this.marks.root, axes.figure, this.note, this.pointed, this.cover);
+    this.frame = element('div', {class: 'stage'}, canvas, this.marks.root, axes.figure, element('div', {class: 'scale-note', role: 'status'}, this.hint, this.note), this.pointed, this.cover);
     this.bar = element('div', {class: 'bar', style: `background: ${gradient(FIELDS.displacement.map)}`});
     this.title = element('div', {class: 'bar-title'});
     this.ends = element('div', {class: 'ends'});

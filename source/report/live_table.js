@@ -1,6 +1,6 @@
-// Rows that grow. Where they would be too many, every other one is left out: the later, the more of them are kept.
+// Rows that grow, each with its time. Where they would be too many, older ones are left out.
 
-const MOST = 3000;
+const MOST = 3000, NEWEST = 1000, OLDER = 1000;
 
 export class Table {
   constructor(names) {
@@ -22,9 +22,13 @@ export class Table {
     if (this.length > MOST) this.thin();
   }
 
+  /** The newest rows stay; of those before only some, evenly spread over time. */
   thin() {
-    for (const name of this.names) this.columns[name] = this.columns[name].filter((_, row) => row % 2 === 0 || row === this.length - 1);
-    this.length = this.columns[this.names[0]].length;
+    const {time} = this.columns, cut = this.length - NEWEST, apart = (time[cut] - time[0]) / OLDER, kept = [];
+    for (let row = 0; row < this.length; ++row)
+      if (row === 0 || row >= cut || time[row] >= time[kept.at(-1)] + 0.999 * apart) kept.push(row);
+    for (const name of this.names) this.columns[name] = kept.map((row) => this.columns[name][row]);
+    this.length = kept.length;
   }
 
   /** The rows from which on a column is at least this; it rises. */

@@ -63,7 +63,7 @@ export class Tools {
     if (!this.connection.isOpen) return;
     this.wanted[number] = place;
     this.connection.sayLater(`tool ${number}`, `tool ${this.list[number].name} ${place.join(' ')}`);
-    this.moved = performance.now();
+    this.touched = true;
     this.showSlider(number);
   }
 

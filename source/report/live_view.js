@@ -38,7 +38,7 @@ export class LiveView extends BodyView {
 
   takeTheme() {
     super.takeTheme();
-    if (this.fixedPoints) this.fixedPoints.material.color = new Color(styleColour('--wire'));
+    if (this.fixedPoints) this.fixedPoints.material.color = new Color(styleColour('--ink'));
     if (this.fixedPoints) this.paint();
   }
 

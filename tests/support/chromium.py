@@ -1,4 +1,4 @@
-"""A page in headless Chromium, steered through the pipe of its DevTools: what report.py needs of it, not called."""
+"""A page in headless Chromium, steered through the pipe of its DevTools: what report.py and live_page.py need of it, not called."""
 
 import itertools
 import json
@@ -94,6 +94,18 @@ class Chromium:
         self.send("Page.navigate", url=file.resolve().as_uri())
         self.wait_for("document.readyState === 'complete' && document.querySelector('header') !== null")
         time.sleep(0.3)
+
+    def visit(self, address):
+        """Opens the page of a live session. What its socket carries is not kept; the page may ask nobody else by its own rights."""
+        self.events.clear()
+        self.send("Network.disable")
+        self.send("Page.navigate", url=address)
+        self.wait_for("window.supple !== undefined && supple.state().status === 'open'", 60)
+
+    def mouse(self, kind, x, y, pressed):
+        """mouseMoved, mousePressed or mouseReleased, with the left button down or not."""
+        button = {} if kind == "mouseMoved" else {"button": "left", "clickCount": 1}
+        self.send("Input.dispatchMouseEvent", type=kind, x=x, y=y, buttons=int(pressed), **button)
 
     def evaluate(self, expression):
         result = self.send("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
