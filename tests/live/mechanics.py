@@ -3,9 +3,9 @@
 import math
 import pathlib
 import sys
+import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-import live_client
 import runner
 
 SMALL = runner.ROOT / "parameters" / "bar" / "small.prm"
@@ -15,22 +15,17 @@ AT_REST = {"Start/Velocity": "0; 0; 0", "Loads/Gravity": "0, 0, 0", "Time/Step":
 LINEAR = {**AT_REST, "Corotation/Rotation": "none"}
 
 
-def live(settings, commands, scene=SMALL):
-    """A session; commands are texts, or numbers of steps to wait for. Gives its results and the last hands."""
-    with live_client.Session(scene, settings) as session:
-        page = live_client.Page(session)
-        page.until(lambda: page.frames, "the first frame")
-        page.do("speed 0")
-        for command in commands:
-            if isinstance(command, str):
-                page.do(command)
-            else:
-                for _ in range(command):
-                    page.do("step")
-                    page.steps(1)
-        page.quit()
-        runner.check(session.end() == 0, f"the session ends with {session.end()}")
-    return runner.Results(session.folder)
+def live(settings, deeds):
+    """Repeats a session. deeds are texts, or numbers of steps until the next one. Gives its results."""
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="supple-"))
+    step, lines = 0, []
+    for deed in [*deeds, "end"]:
+        if isinstance(deed, str):
+            lines.append(f"step {step} time {step * settings['Time/Step']} {deed}\n")
+        else:
+            step += deed
+    (folder / "by_hand.motion").write_text("".join(lines))
+    return runner.simulate(SMALL, {**settings, "Live/Motion": folder / "by_hand.motion"})
 
 
 def close(value, wanted, part, what):
@@ -39,7 +34,7 @@ def close(value, wanted, part, what):
 
 # In equilibrium the spring's force is k (p - x), and a nodal force of that size gives the same displacement.
 for settings in (LINEAR, AT_REST):
-    pulled = live(settings, ["grab 28 2 0 2.4 0 1e6", 400])
+    pulled = live(settings, ["grab 28 2 0 2.4 by 28 1e6 0 0 0", 400])
     hand, probe = pulled.table("hands.csv")[-1], pulled.probes()[-1]
     force = 1e6 * (2.4 - hand["z"])
     close(hand["fz"], force, 1e-12, "force of the spring")
@@ -49,17 +44,17 @@ for settings in (LINEAR, AT_REST):
     close(loaded.probes()[-1]["tip.uz"], probe["tip.uz"], 1e-8, "displacement by a force of the spring's size")
 
 # A held vertex feels what a spring would have to pull with, to be where it is.
-held = live(LINEAR, [f"hold 28 2 0 {2 + probe['tip.uz']:.17g}", 400])
+held = live(LINEAR, ["hold 28 2 0 2", f"move 28 2 0 {2 + probe['tip.uz']:.17g} over 1", 400])
 grip = held.table("hands.csv")[-1]
 runner.check(grip["holds"] == 1 and abs(grip["z"] - 2 - probe["tip.uz"]) < 1e-12, f"the held vertex is at {grip['z']}")
-pulled = live(LINEAR, ["grab 28 2 0 2.4 0 1e6", 400]).table("hands.csv")[-1]
-straight = live(LINEAR, [f"hold 28 {pulled['x']:.17g} {pulled['y']:.17g} {pulled['z']:.17g}", 400]).table("hands.csv")[-1]
+pulled = live(LINEAR, ["grab 28 2 0 2.4 by 28 1e6 0 0 0", 400]).table("hands.csv")[-1]
+straight = live(LINEAR, ["hold 28 2 0 2", f"move 28 {pulled['x']:.17g} {pulled['y']:.17g} {pulled['z']:.17g} over 1", 400]).table("hands.csv")[-1]
 close(straight["fz"], pulled["fz"], 1e-6, "reaction of a held vertex beside the spring's force there")
 
 # Work: what the hand has put in is in the energies, whatever is changed on the way.
 for method in ("backward euler", "trbdf2", "imex3"):
     busy = live({"Time/Step": 0.01, "Time/Method": method, "Solver/Tolerance": 1e-13, "Start/Velocity": "0; 0; -1", "Probes/Points": "tip: 2, 0, 2"},
-                [5, "grab 28 2 0 2.3 0 0", 10, "set Material/Young modulus=5e7", 5, "move 28 2 0.1 1.8", 5, "set Loads/Gravity=0, 5, 0", 5,
+                [5, "grab 28 2 0 2 by 28 1e9 0 0 0", "move 28 2 0 2.3 over 0.05", 10, "set Material/Young modulus=5e7", 5, "move 28 2 0.1 1.8 over 0.03", 5, "set Loads/Gravity=0, 5, 0", 5,
                  "release 28", 10])
     rows = busy.history()
     scale = max(row["total"] + abs(row["work"]) for row in rows)
@@ -70,7 +65,7 @@ for method in ("backward euler", "trbdf2", "imex3"):
 
 # A free body without weight: once it is let go, its momentum stays.
 free = live({"Constraints/Clamped boundaries": "", "Loads/Gravity": "0, 0, 0", "Start/Velocity": "0; 0; 0", "Time/Step": 0.02,
-             "Solver/Tolerance": 1e-14}, ["grab 28 2 0 3 0 0", 10, "release 28", 20])
+             "Solver/Tolerance": 1e-14}, ["grab 28 2 0 2 by 28 1e9 0 0 0", "move 28 2 0 3 over 0.1", 10, "release 28", 20])
 rows = free.history()
 last = rows[-1]
 runner.check(abs(last["pz"]) > 1e3, f"the hand has given a momentum of {last['pz']}")

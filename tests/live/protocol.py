@@ -117,6 +117,6 @@ with live_client.Session(SMALL, {}) as session:
     runner.check(session.end() == 0, f"the session ends with {session.end()}")
 
 for arguments, word in [(["--live"], "A scene is missing"), (["--live", runner.ROOT / "parameters" / "bar" / "static.prm"], "static"),
-                        (["--live", runner.ROOT / "parameters" / "studies" / "bar-steps.prm"], "single scene"),
+                        (["--live", runner.ROOT / "parameters" / "studies" / "bar-static.prm"], "single scene"),
                         (["--live", SMALL, "--set", "Checkpoint/Minutes=1"], "Checkpoint/Every")]:
     runner.refused(runner.run(*arguments, "--quiet"), [word], f"{arguments}")
