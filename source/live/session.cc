@@ -68,7 +68,8 @@ namespace Supple
     std::string
     in_words(const Tensor<1, 3> &place)
     {
-      return digits(place[0], all_digits) + " " + digits(place[1], all_digits) + " " + digits(place[2], all_digits);
+      return digits(place[0], all_digits) + " " + digits(place[1], all_digits) + " " +
+             digits(place[2], all_digits);
     }
   } // namespace
 
@@ -203,7 +204,7 @@ namespace Supple
   void
   Session::require_vertex(const unsigned int vertex) const
   {
-    const Body &body = simulation->present().body;
+    const Body &body  = simulation->present().body;
     unsigned int here = 0;
     for (unsigned int node = 0; node < body.n_owned; ++node)
       here += body.serial_vertex[node] == vertex;
@@ -249,7 +250,7 @@ namespace Supple
   void
   Session::renew()
   {
-    auto next = std::make_unique<Simulation>(present_scene(),
+    auto next                       = std::make_unique<Simulation>(present_scene(),
                                              simulation->present().shared_mesh,
                                              folder,
                                              true);
@@ -437,8 +438,9 @@ namespace Supple
           offset[i] += now().current_state().displacement.local_element(3 * node + i);
         if (body.serial_vertex[node] == vertex)
           offset = 0.;
-        own.insert(own.end(),
-                   {double(body.serial_vertex[node]), k * part * part, offset[0], offset[1], offset[2]});
+        own.insert(
+          own.end(),
+          {double(body.serial_vertex[node]), k * part * part, offset[0], offset[1], offset[2]});
       }
     std::vector<std::array<double, 5>> ends;
     for (const std::vector<double> &of_process : Utilities::MPI::all_gather(communicator, own))

@@ -56,7 +56,8 @@ namespace Supple
   std::size_t
   Film::frame_size() const
   {
-    return 2 * sizeof(double) + (surface.rest.size() + n_fields * surface.triangles.size()) * sizeof(float);
+    return 2 * sizeof(double) +
+           (surface.rest.size() + n_fields * surface.triangles.size()) * sizeof(float);
   }
 
 
@@ -177,7 +178,8 @@ namespace Supple
     packed.n_written        = n_frames;
     const std::size_t begin = packed.bytes.size();
     const std::size_t room  = limit > begin ? limit - begin : 0;
-    const std::size_t size  = (surface.rest.size() + n_fields * surface.triangles.size()) * sizeof(std::uint16_t);
+    const std::size_t size =
+      (surface.rest.size() + n_fields * surface.triangles.size()) * sizeof(std::uint16_t);
     for (std::size_t n_taken = std::min<std::size_t>(n_frames, largest_ratio * room / size);;)
       {
         n_taken = std::max<std::size_t>(n_taken, std::min(n_frames, 2u));

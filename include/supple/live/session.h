@@ -162,12 +162,12 @@ namespace Supple
     const bool quiet;
     const double finer;
     const MPI_Comm communicator;
-    Hands hands, hands_before;   ///< now, and after the last step
+    Hands hands, hands_before;         ///< now, and after the last step
     std::vector<Deed> done, new_deeds; ///< new: since the last step
     std::unique_ptr<Simulation> simulation;
     Listener *guest = nullptr;
-    double stop     = 0.; ///< of variable steps; 0: none
-    std::ofstream motion_file;              ///< on the first process
+    double stop     = 0.;                 ///< of variable steps; 0: none
+    std::ofstream motion_file;            ///< on the first process
     std::unique_ptr<CsvFile> grips_table; ///< on the first process
     std::vector<std::string> warnings_told;
   };
