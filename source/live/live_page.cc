@@ -301,7 +301,10 @@ namespace Supple
   repeating_scene(const Parameters &first, const Session::Scene &scene, const std::string &folder)
   {
     const std::string base        = first.file.folder();
-    std::vector<Override> changes = {{"Live/Motion=" + motion_file_name}, {"Output/Folder="}};
+    const std::vector<Override> changes = {{"Live/Motion=" + motion_file_name},
+                                           {"Output/Folder="},
+                                           {"Time/Estimate error=false"},
+                                           {"Space/Second mesh=none"}};
     std::istringstream lines(scene(changes).as_used);
     std::ostringstream text;
     text << "# What was done in a live session, once more: supple " << repeated_scene_name << "\n";

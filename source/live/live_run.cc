@@ -45,10 +45,26 @@ namespace Supple
 
 
     Parameters
-    from_its_start(Parameters scene)
+    from_its_start(const Parameters &scene)
     {
-      scene.checkpoint.resume = false;
-      return scene;
+      Parameters begun        = alone(scene);
+      begun.checkpoint.resume = false;
+      return begun;
+    }
+
+
+    /** That other runs are left out, if the scene asks for them; empty if it does not. */
+    std::string
+    what_is_left_out(const Parameters &scene)
+    {
+      std::string entries;
+      if (scene.time.estimate_error)
+        entries = scene.origin("Time/Estimate error");
+      if (scene.space.second_mesh != SpaceParameters::SecondMesh::none)
+        entries += (entries.empty() ? "" : " and ") + scene.origin("Space/Second mesh");
+      return entries.empty() ? ""
+                             : entries + ": left out, for other runs know nothing of hands; the page "
+                                         "runs all again with half the step.";
     }
 
 
@@ -99,6 +115,9 @@ namespace Supple
     , talks(root && !quiet)
     , watcher(std::make_unique<Watcher>())
   {
+    const std::string left_out = what_is_left_out(scene_at_start);
+    if (talks && !left_out.empty())
+      std::cout << left_out << std::endl;
     open_session();
   }
 

@@ -25,8 +25,8 @@ namespace Supple
     constexpr const char *grips_file = "hands.csv";
 
     /** Without what can't go along with hands. @throws InputError */
-    Parameters
-    for_session(Parameters scene)
+    void
+    require_session(const Parameters &scene)
     {
       if (scene.time.problem == TimeParameters::Problem::stationary)
         throw InputError(scene.origin("Time/Problem") +
@@ -36,10 +36,16 @@ namespace Supple
         throw InputError(scene.origin("Checkpoint/Minutes") +
                          ": what is done by hand could not be repeated to the same digits where "
                          "checkpoints come by the clock. Take Checkpoint/Every.");
-      scene.time.open_ended     = true;
-      scene.time.estimate_error = false; // the second run would know nothing of hands
-      scene.space.second_mesh   = SpaceParameters::SecondMesh::none;
-      return scene;
+    }
+
+
+    Parameters
+    for_session(const Parameters &scene)
+    {
+      require_session(scene);
+      Parameters session      = alone(scene);
+      session.time.open_ended = true;
+      return session;
     }
 
 
@@ -72,6 +78,15 @@ namespace Supple
              digits(place[2], all_digits);
     }
   } // namespace
+
+
+  Parameters
+  alone(Parameters scene)
+  {
+    scene.time.estimate_error = false;
+    scene.space.second_mesh   = SpaceParameters::SecondMesh::none;
+    return scene;
+  }
 
 
   std::vector<std::string>

@@ -173,6 +173,11 @@ namespace Supple
   };
 
 
+  /** A scene without the other runs that tell its error: they would know nothing of hands. */
+  Parameters
+  alone(Parameters scene);
+
+
   /** The names of the files of a session in its folder. */
   inline const std::string motion_file_name = "session.motion", repeated_scene_name = "live.prm";
 
