@@ -7,6 +7,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import contact_solutions
 import runner
 import vtu
 
@@ -80,6 +81,28 @@ def hertz():
         for row in simulate(HERTZ, settings).table("tool_sphere.csv")[1:]:
             exact = 36.630037 * row["time"] ** 1.5
             runner.check(abs(-4 * row["fz"] / exact - 1) < limit, f"{settings}: {-4 * row['fz']} N instead of {exact} N at {row['time']}")
+
+
+def mindlin():
+    """Cattaneo and Mindlin: a sphere that is moved sideways sticks in the middle and slips around it; the force and the radius are known."""
+    pushed = simulate(CONTACT / "mindlin.prm", {"Output/Frames": "every"})
+    states = [vtu.Frame(file) for file in sorted((pushed.folder / "solution").glob("*.vtu"))]
+    for row, state in list(zip(pushed.table("tool_sphere.csv"), states))[2:]:
+        load, force = contact_solutions.mindlin_load(row["time"]), 2 * row["fx"] / contact_solutions.MINDLIN_LIMIT
+        runner.check(abs(force - load) < 0.02, f"{force} of the force at which all slides instead of {load}")
+        radius = contact_solutions.stick_radius(state, states[1], row["time"])
+        runner.check(abs(radius - (1 - load) ** (1 / 3)) < 0.12, f"with {load} it sticks within {radius} a")
+
+
+def ironing():
+    """A die that goes over cells feels them little: less than 3 % of its force, with friction too, which is that of Coulomb then."""
+    for settings, n_begin in (({"Time/Steps": 84}, 4), ({"Tool die/Friction": 0.3, "Contact/Slip resolution": 2e-4}, 24)):
+        ironed = simulate(CONTACT / "ironing.prm", settings)
+        rows = ironed.table("tool_die.csv")[n_begin:]
+        whole, period = contact_solutions.variation([row["fy"] for row in rows], 20)
+        runner.check(whole < 0.03 and 1e-4 < period < 0.02, f"{settings}: the force varies by {whole}, within a cell by {period}")
+        ratio = sum(row["fx"] for row in rows) / -sum(row["fy"] for row in rows)
+        runner.check(abs(ratio - settings.get("Tool die/Friction", 0)) < 0.015, f"{settings}: sideways {ratio} of the force down")
 
 
 def friction():
