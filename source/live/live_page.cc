@@ -300,7 +300,7 @@ namespace Supple
   std::string
   repeating_scene(const Parameters &first, const Session::Scene &scene, const std::string &folder)
   {
-    const std::string base        = first.file.folder();
+    const std::string base              = first.file.folder();
     const std::vector<Override> changes = {{"Live/Motion=" + motion_file_name},
                                            {"Output/Folder="},
                                            {"Time/Estimate error=false"},

@@ -63,8 +63,9 @@ namespace Supple
       if (scene.space.second_mesh != SpaceParameters::SecondMesh::none)
         entries += (entries.empty() ? "" : " and ") + scene.origin("Space/Second mesh");
       return entries.empty() ? ""
-                             : entries + ": left out, for other runs know nothing of hands; the page "
-                                         "runs all again with half the step.";
+                             : entries +
+                                 ": left out, for other runs know nothing of hands; the page "
+                                 "runs all again with half the step.";
     }
 
 

@@ -86,7 +86,8 @@ namespace Supple
   std::size_t
   Film::frame_size() const
   {
-    return 2 * sizeof(double) + (surface.rest.size() + fields.size() * surface.triangles.size()) * sizeof(float);
+    return 2 * sizeof(double) +
+           (surface.rest.size() + fields.size() * surface.triangles.size()) * sizeof(float);
   }
 
 

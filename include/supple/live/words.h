@@ -19,8 +19,8 @@ namespace Supple
     std::string
     word(const std::string &what);
 
-    /** All but the last so many words, a name that may have blanks. @throws InputError if nothing is
-     * left of it */
+    /** All but the last so many words, a name that may have blanks. @throws InputError if nothing
+     * is left of it */
     std::string
     name_before(unsigned int n_words, const std::string &what);
 

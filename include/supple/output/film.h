@@ -15,8 +15,8 @@ namespace Supple
 {
   /**
    * The surface of the body in each frame, for the report page: the displacement of its vertices,
-   * and volume ratio and von Mises stress of the cells behind its triangles; perhaps the pressure of
-   * contact, the mean of their vertices, and the error in space of these cells.
+   * and volume ratio and von Mises stress of the cells behind its triangles; perhaps the pressure
+   * of contact, the mean of their vertices, and the error in space of these cells.
    *
    * The frames are kept in a file of the output folder, report.frames, so that a run that goes on
    * from a checkpoint has those before it.
