@@ -121,7 +121,10 @@ namespace Supple
     , finer(finer)
     , communicator(communicator)
   {
-    simulation = std::make_unique<Simulation>(present_scene(), folder, quiet, communicator);
+    simulation       = std::make_unique<Simulation>(present_scene(), folder, quiet, communicator);
+    const Body &body = simulation->present().body;
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      own_nodes.emplace(body.serial_vertex[node], node);
   }
 
 
@@ -381,12 +384,10 @@ namespace Supple
   Tensor<1, 3>
   Session::value_at(const unsigned int vertex, const Vector &values) const
   {
-    const Body &body = now().present().body;
     Tensor<1, 3> value;
-    for (unsigned int node = 0; node < body.n_owned; ++node)
-      if (body.serial_vertex[node] == vertex)
-        for (unsigned int i = 0; i < 3; ++i)
-          value[i] = values.local_element(3 * node + i);
+    if (const auto own = own_nodes.find(vertex); own != own_nodes.end())
+      for (unsigned int i = 0; i < 3; ++i)
+        value[i] = values.local_element(3 * own->second + i);
     return Utilities::MPI::sum(value, communicator);
   }
 
@@ -402,24 +403,59 @@ namespace Supple
   std::vector<Session::Grip>
   Session::grips() const
   {
+    const Body &body    = now().present().body;
+    const Vector &u     = now().current_state().displacement;
+    const double time   = now().time();
+    const auto place_at = [&](const unsigned int node) {
+      Tensor<1, 3> place = body.position(node);
+      for (unsigned int i = 0; i < 3; ++i)
+        place[i] += u.local_element(3 * node + i);
+      return place;
+    };
+
+    // What this process knows of places and forces, six numbers each.
     std::vector<Grip> list;
+    std::vector<double> here;
+    const auto add = [&](const Grip &grip) {
+      for (const auto *vector : {&grip.place, &grip.force})
+        here.insert(here.end(), vector->begin_raw(), vector->end_raw());
+      list.push_back(grip);
+    };
     for (const auto &[vertex, grab] : hands.grabs())
       {
-        Grip grip{vertex, false, grab.path->at(now().time()), place_of(vertex), {}, 0.};
+        Grip grip{vertex, false, grab.path->at(time), {}, {}, 0.};
+        if (const auto own = own_nodes.find(vertex); own != own_nodes.end())
+          grip.place = place_at(own->second);
         for (const Pull::End &end : grab.ends)
           {
-            grip.force += end.stiffness * (grip.target + end.offset - place_of(end.vertex));
             grip.stiffness += end.stiffness;
+            if (const auto own = own_nodes.find(end.vertex); own != own_nodes.end())
+              grip.force += end.stiffness * (grip.target + end.offset - place_at(own->second));
           }
-        list.push_back(grip);
+        add(grip);
       }
     for (const auto &[vertex, path] : hands.holds())
-      list.push_back({vertex,
-                      true,
-                      path->at(now().time()),
-                      place_of(vertex),
-                      value_at(vertex, now().reactions()),
-                      0.});
+      {
+        Grip grip{vertex, true, path->at(time), {}, {}, 0.};
+        if (const auto own = own_nodes.find(vertex); own != own_nodes.end())
+          {
+            grip.place = place_at(own->second);
+            for (unsigned int i = 0; i < 3; ++i)
+              grip.force[i] = now().reactions().local_element(3 * own->second + i);
+          }
+        add(grip);
+      }
+    if (list.empty())
+      return list;
+
+    std::vector<double> all(here.size());
+    Utilities::MPI::sum(here, communicator, all);
+    for (std::size_t g = 0; g < list.size(); ++g)
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          list[g].place[i] = all[6 * g + i];
+          list[g].force[i] = all[6 * g + 3 + i];
+        }
     return list;
   }
 

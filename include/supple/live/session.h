@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace Supple
@@ -162,6 +163,7 @@ namespace Supple
     const bool quiet;
     const double finer;
     const MPI_Comm communicator;
+    std::unordered_map<unsigned int, unsigned int> own_nodes; ///< by the index in the mesh
     Hands hands, hands_before;         ///< now, and after the last step
     std::vector<Deed> done, new_deeds; ///< new: since the last step
     std::unique_ptr<Simulation> simulation;
@@ -169,7 +171,6 @@ namespace Supple
     double stop     = 0.;                 ///< of variable steps; 0: none
     std::ofstream motion_file;            ///< on the first process
     std::unique_ptr<CsvFile> grips_table; ///< on the first process
-    std::vector<std::string> warnings_told;
   };
 
 
