@@ -59,7 +59,7 @@ class Session {
     return [element('header', {}, element('h1', {}, data.name, this.badge), this.facts), this.notices,
       element('div', {class: 'columns live'},
         element('div', {class: 'left'}, this.stage.root, this.clock.root, this.hands.root, this.stage.controls),
-        element('div', {class: 'right'}, element('div', {class: 'settings'}, this.tools.root, this.entries.root, this.again.root), this.charts.root)),
+        element('div', {class: 'right'}, element('div', {class: 'beside'}, this.tools.root, this.charts.first), element('div', {class: 'settings'}, this.entries.root, this.again.root), this.charts.root)),
       element('section', {class: 'about'}, element('h2', {}, 'About this page'), element('p', {}, keys),
         element('p', {}, 'All that is done here is written down; the scene and the motion file in the output folder repeat it. Drawn are the states that were computed, not all of them where they come faster than the screen; displacements have 16 bits here. The files have all digits.'),
         element('p', {}, end), element('p', {}, `Supple ${data.version}. This page speaks with the program on this computer alone.`))];
@@ -213,13 +213,14 @@ function makeHooks(session) {
     },
     /** Where a vertex is at rest. */
     restOf: (number) => [...surface.rest.subarray(3 * surface.placeOfNumber.get(number), 3 * surface.placeOfNumber.get(number) + 3)],
-    /** {vertex, force, mean, size} of the hand that was heard of last, or null. */
+    /** {vertex, step, force, mean, size} of the hand that was heard of last, or null. */
     lastForce: () => hand.last ?? null,
     /** The newest row of probes.csv, by its columns. */
-    probes: () => {
-      const {columns, length} = session.charts.probes;
-      return Object.fromEntries(Object.entries(columns).map(([name, column]) => [name, column[length - 1]]));
-    },
+    probes: () => session.charts.probes.last(),
+    /** The newest row of a tool's table, by its columns. */
+    tool: (name) => session.charts.tools[name].last(),
+    /** Where a tool is wanted. */
+    wanted: (name) => session.tools.wanted[session.data.tools.findIndex((tool) => tool.name === name)],
     /** Numbers of the vertices in hands. */
     grabbed: () => [...hand.pulls.keys()],
   };

@@ -3,13 +3,14 @@
 import uPlot from 'uplot';
 
 import {axis, lineStyle, mount, unmount} from './charts.js';
-import {choice, element} from './dom.js';
+import {choice, element, styleColour} from './dom.js';
 import {digits, prefixed, quantity} from './format.js';
 import {Table} from './live_table.js';
 
 const ENERGIES = ['kinetic', 'elastic', 'potential', 'contact', 'dissipated', 'rubbed', 'work', 'total'];
 const WINDOWS = [['', 'whole session'], [30, 'last 30 s'], [10, 'last 10 s'], [3, 'last 3 s'], [1, 'last 1 s']];
 const REDRAW = 200; // ms
+const LOW = 150, HIGH = 180; // pixels: of the first charts, of the others
 const value = (_, number) => (number === null || number === undefined ? '–' : digits(number, 4));
 
 function largest(columns) {
@@ -20,8 +21,8 @@ function largest(columns) {
 
 /** What all charts share: title with the unit that fits, drawn when they are seen and have something new. */
 class Growing {
-  constructor(title, unit, table) {
-    Object.assign(this, {title, unit, table, symbol: null, drawn: -1});
+  constructor(title, unit, table, height = HIGH) {
+    Object.assign(this, {title, unit, table, height, symbol: null, drawn: -1});
     this.heading = element('h3', {}, title);
     this.holder = element('div', {class: 'chart'});
     this.nothing = element('span', {class: 'nothing', hidden: true}, 'nothing so far');
@@ -74,8 +75,8 @@ class Growing {
 /** Columns against time; those in which there is nothing are not shown. */
 class TimeCurves extends Growing {
   /** @param curves [[label, name of the column], ...]  @param all whether columns of zeros are shown too */
-  constructor(title, unit, table, curves, all = false) {
-    super(title, unit, table);
+  constructor(title, unit, table, curves, {all = false, height = HIGH} = {}) {
+    super(title, unit, table, height);
     this.curves = curves.filter(([, name]) => table.columns[name]);
     this.all = all;
   }
@@ -100,7 +101,7 @@ class TimeCurves extends Growing {
 
   make(shown, data) {
     return mount({
-      height: 180,
+      height: this.height,
       scales: {x: {time: false}},
       axes: [axis('time in s', {size: 34, values: (_, ticks) => ticks.map((tick) => digits(tick, 6))}), this.valueAxis()],
       series: [{label: 'time', value}, ...shown.map(([label], number) => ({label, value: (_, x) => value(_, x === null || x === undefined ? x : x / this.size), width: 1.6, points: {show: false},
@@ -161,7 +162,7 @@ function path(chart, number) {
 class DepthCurve extends Growing {
   /** @param way from a place to the length of the way, rising into the body  @param force from three components to what is shown */
   constructor(title, table, label, way, force) {
-    super(title, 'N', table);
+    super(title, 'N', table, LOW);
     Object.assign(this, {label, way, force});
   }
 
@@ -182,10 +183,24 @@ class DepthCurve extends Growing {
     else this.chart = this.make([null, [xs, ys]]);
   }
 
+  /** A dot where it is now. */
+  markLast(chart) {
+    const [xs, ys] = chart.data[1];
+    if (xs.length === 0) return;
+    const {ctx} = chart, x = chart.valToPos(xs.at(-1), 'x', true), y = chart.valToPos(ys.at(-1), 'y', true);
+    ctx.save();
+    ctx.fillStyle = styleColour('--line-2');
+    ctx.beginPath();
+    ctx.arc(x, y, 4 * devicePixelRatio, 0, 2 * Math.PI);
+    ctx.fill();
+    ctx.restore();
+  }
+
   make(data) {
     return mount({
       mode: 2,
-      height: 180,
+      height: this.height,
+      hooks: {draw: [(chart) => this.markLast(chart)]},
       scales: {x: {time: false, auto: true, range: (_, low, high) => (low < high ? uPlot.rangeNum(low, high, 0.02, true) : [low - 1e-6, low + 1e-6])}, y: {auto: true}},
       axes: [axis(() => this.wayLabel, {size: 34, values: (_, ticks) => ticks.map((tick) => digits(tick / this.waySize, 6))}), this.valueAxis()],
       series: [{}, {facets: [{scale: 'x', auto: true}, {scale: 'y', auto: true}], paths: path, points: {show: false}, width: 1.6, ...lineStyle(0)}],
@@ -204,16 +219,22 @@ export class LiveCharts {
     this.history = new Table(data.history);
     this.probes = new Table(data.probes);
     this.error = new Table(['time', 'error', 'seconds']);
+    this.hands = new Table(['time', 'force']);
     this.tools = Object.fromEntries(data.tools.map(({name}) => [name, new Table(data.tool_columns)]));
     this.all = [];
     this.seen = new Set();
     this.watcher = new IntersectionObserver((entries) => entries.forEach(({target, isIntersecting}) => this.seen[isIntersecting ? 'add' : 'delete'](target)), {rootMargin: '100px'});
-    this.root = element('div', {class: 'charts'},
-      element('div', {class: 'probe-head'}, element('h2', {}, 'Curves'), choice('', WINDOWS, '', (length) => { this.length = Number(length); })));
-    data.tools.forEach(({name}, number) => this.addTool(name, ways[number]));
-    this.addProbes(data.probes);
+    this.head = element('div', {class: 'probe-head'}, element('h2', {}, 'Curves'), choice('', WINDOWS, '', (length) => { this.length = Number(length); }));
+    /** Beside the body, and further below. */
+    this.first = element('div', {class: 'charts'}, this.head);
+    this.root = element('div', {class: 'charts'});
+    const hasTools = data.tools.length > 0;
+    data.tools.forEach(({name}, number) => this.addDepth(name, ways[number]));
+    this.add(new TimeCurves('Force of the hand', 'N', this.hands, [['force', 'force']], {height: hasTools ? HIGH : LOW}), hasTools ? this.root : this.first);
+    data.tools.forEach(({name}) => this.add(new TimeCurves(`Force of ${name}`, 'N', this.tools[name], components('f'))));
+    this.addProbes(data.probes, hasTools ? this.root : this.first);
     this.add(new TimeCurves('Energies', 'J', this.history, ENERGIES.map((name) => [name, name])));
-    this.add(new TimeCurves('Volume ratio of the cells', '', this.history, [['smallest', 'min_volume_ratio'], ['largest', 'max_volume_ratio']], true));
+    this.add(new TimeCurves('Volume ratio of the cells', '', this.history, [['smallest', 'min_volume_ratio'], ['largest', 'max_volume_ratio']], {all: true}));
     this.add(new ErrorCurves(this.error, surface));
     this.addMore();
     setInterval(() => this.redraw(), REDRAW);
@@ -233,25 +254,26 @@ export class LiveCharts {
     chart.remove();
   }
 
-  addTool(name, {label, way, along}) {
-    const table = this.tools[name];
-    this.add(new DepthCurve(`Force of ${name}, against its way`, table, label, way, along));
-    this.add(new TimeCurves(`Force of ${name}`, 'N', table, components('f')));
+  addDepth(name, {label, way, along}) {
+    this.add(new DepthCurve(`Force of ${name}, against its way`, this.tools[name], label, way, along), this.first);
   }
 
-  addProbes(columns) {
+  /** @param place of the displacement; velocity and force come below */
+  addProbes(columns, place) {
     const names = [...new Set(columns.map((name) => name.match(/^(.*)\.[uvf][xyz]$/)?.[1]).filter(Boolean))];
     if (names.length === 0) return;
-    const holder = element('div', {class: 'probe'});
+    const above = element('div', {class: 'probe'}), below = place === this.root ? above : element('div', {class: 'probe'});
     let shown = [];
     const show = (name) => {
       shown.forEach((chart) => this.drop(chart));
-      shown = [['u', 'Displacement', 'm'], ['v', 'Velocity', 'm/s'], ['f', 'Force, which holds or moves it', 'N']].filter(([letter]) => columns.includes(`${name}.${letter}x`))
-        .map(([letter, title, unit]) => this.add(new TimeCurves(title, unit, this.probes, components(`${name}.${letter}`)), holder));
+      shown = [['u', `Displacement of ${name}`, 'm', above, LOW], ['v', `Velocity of ${name}`, 'm/s', below, HIGH], ['f', `Force on ${name}, which holds or moves it`, 'N', below, HIGH]]
+        .filter(([letter]) => columns.includes(`${name}.${letter}x`))
+        .map(([letter, title, unit, holder, height]) => this.add(new TimeCurves(title, unit, this.probes, components(`${name}.${letter}`), {height}), holder));
     };
     show(names[0]);
-    this.root.append(element('div', {class: 'probe-head'}, element('h2', {}, 'Probe'),
-      names.length > 1 ? choice('', names.map((name) => [name, name]), names[0], show) : element('span', {}, names[0])), holder);
+    place.append(above);
+    if (below !== above) this.root.append(below);
+    if (names.length > 1) this.head.append(choice('Probe', names.map((name) => [name, name]), names[0], show));
   }
 
   addMore() {
@@ -262,15 +284,17 @@ export class LiveCharts {
     this.root.append(more);
   }
 
-  take({history = [], probes = [], tools = {}, error = []}) {
+  take({history = [], probes = [], tools = {}, error = [], pulls = []}) {
     this.history.add(history);
     this.probes.add(probes);
     this.error.add(error);
     for (const [name, rows] of Object.entries(tools)) this.tools[name]?.add(rows);
+    const {time} = this.history.columns;
+    if (history.length > 0) this.hands.add([[time.at(-1), Math.max(0, ...pulls.map(({force}) => Math.hypot(...force)))]]);
   }
 
   clear() {
-    [this.history, this.probes, this.error, ...Object.values(this.tools)].forEach((table) => table.clear());
+    [this.history, this.probes, this.error, this.hands, ...Object.values(this.tools)].forEach((table) => table.clear());
   }
 
   /** Those on the screen. */

@@ -5,6 +5,28 @@ import {element} from './dom.js';
 const NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
 const BETWEEN = /greater than (\S+) and less than (\S+)/;
 const PACE = 150; // ms between two values of a slider that is dragged
+const LONG = 10; // letters of a number that is shown with six digits
+
+/** What one changes most: groups of entries, and what they are called where their section is not told. */
+const FIRST = [
+  [['Material/Young modulus'], ['Material/Poisson ratio'], ['Material/Lame lambda'], ['Material/Lame mu'], ['Material/Density'], ['Material/Mass per vertex'], ['Corotation/Rotation']],
+  [['Loads/Gravity'], ['Loads/Pressure']],
+  [['Damping/Mass factor', 'Damping by mass'], ['Damping/Stiffness factor', 'Damping by stiffness'], ['Damping/Viscous', 'Damping by vertex']],
+  [['Time/Step', 'Time step'], ['Time/Relative tolerance'], ['Time/Method', 'Method in time']],
+];
+const LAME = ['Material/Lame lambda', 'Material/Lame mu'], MODULI = ['Material/Young modulus', 'Material/Poisson ratio'];
+
+/** Those of this scene: constants that it uses, loads that there are. */
+function firstOnes(list) {
+  const value = Object.fromEntries(list.map(({entry, value: text}) => [entry, text]));
+  const lame = value['Material/Elastic constants'] === 'Lame';
+  const perVertex = Number(value['Material/Mass per vertex']) > 0;
+  const left = new Set([...(lame ? MODULI : LAME), perVertex ? 'Material/Density' : 'Material/Mass per vertex',
+    ...['Loads/Pressure', 'Damping/Viscous'].filter((entry) => !value[entry] || Number(value[entry]) === 0)]);
+  const frictions = list.map(({entry}) => entry).filter((entry) => entry.endsWith('/Friction'))
+    .map((entry) => [entry, entry.startsWith('Tool ') ? `Friction of ${entry.slice(5, entry.indexOf('/'))}` : 'Friction of bodies']);
+  return [...FIRST, frictions].map((group) => group.filter(([entry]) => entry in value && !left.has(entry))).filter((group) => group.length > 0);
+}
 
 const isNumber = (text) => NUMBER.test(text.trim());
 
@@ -33,8 +55,8 @@ function sliderScale({value, range}) {
 
 /** One entry. What is typed stays until it is taken, or until Escape brings back the session's value. */
 class Widget {
-  /** @param say (text, refused) gives the number of the command, 0 if nobody hears it */
-  constructor(description, say) {
+  /** @param say (text, refused) gives the number of the command, 0 if nobody hears it  @param label what it is called here */
+  constructor(description, say, label) {
     Object.assign(this, description);
     [this.section, this.name] = [description.entry.slice(0, description.entry.indexOf('/')), description.entry.slice(description.entry.indexOf('/') + 1)];
     this.say = say;
@@ -48,9 +70,9 @@ class Widget {
       help.hidden = !help.hidden;
       more.setAttribute('aria-expanded', String(!help.hidden));
     });
-    const unit = this.unit && this.unit !== 'none' ? element('span', {class: 'unit'}, this.unit.replaceAll('^2', '²').replaceAll('^3', '³')) : null;
+    const unit = element('span', {class: 'unit'}, this.unit && this.unit !== 'none' ? this.unit.replaceAll('^2', '²').replaceAll('^3', '³') : '');
     this.root = element('div', {class: 'entry', role: 'group', 'aria-label': this.name},
-      element('label', {for: this.id, title: this.meaning}, this.name), element('span', {class: 'fields'}, this.fields, unit), this.slider ?? element('span', {class: 'no-slider'}), more, this.message, help);
+      element('label', {for: this.id, title: `${this.entry}: ${this.meaning}`}, label ?? this.name), element('span', {class: 'fields'}, this.fields, unit), this.slider ?? element('span', {class: 'no-slider'}), more, this.message, help);
     this.show(this.value);
   }
 
@@ -131,7 +153,10 @@ class Widget {
 
   show(value) {
     const parts = this.vector ? value.split(',').map((part) => part.trim()) : [value];
-    this.fields.forEach((field, i) => { field.value = parts[i] ?? ''; });
+    this.fields.forEach((field, i) => {
+      const text = parts[i] ?? '';
+      field.value = !this.choices && isNumber(text) && text.length > LONG ? String(Number(Number(text).toPrecision(6))) : text;
+    });
     this.shown = this.text;
     this.refused = false;
     this.message.hidden = true;
@@ -158,10 +183,14 @@ class Widget {
 
 export class Entries {
   constructor(list, connection) {
-    this.widgets = list.map((entry) => new Widget(entry, (text, refused) => connection.say(`set ${entry.entry}=${text}`, refused)));
-    const sections = [...new Set(this.widgets.map(({section}) => section))];
-    this.root = list.length === 0 ? null : element('details', {class: 'more entries', open: true}, element('summary', {}, element('h2', {}, 'Change the scene')),
-      sections.map((section) => element('div', {class: 'group'}, element('h3', {}, section), this.widgets.filter((widget) => widget.section === section).map(({root}) => root))));
+    const first = firstOnes(list), names = new Map(first.flat());
+    this.widgets = list.map((entry) => new Widget(entry, (text, refused) => connection.say(`set ${entry.entry}=${text}`, refused), names.get(entry.entry)));
+    const widgetOf = new Map(this.widgets.map((widget) => [widget.entry, widget.root]));
+    const others = this.widgets.filter(({entry}) => !names.has(entry)), sections = [...new Set(others.map(({section}) => section))];
+    const more = others.length === 0 ? null : element('details', {class: 'more'}, element('summary', {}, `More: ${sections.join(', ')}`),
+      sections.map((section) => element('div', {class: 'group'}, element('h3', {}, section), others.filter((widget) => widget.section === section).map(({root}) => root))));
+    this.root = list.length === 0 ? null : element('section', {class: 'entries', 'aria-label': 'Change the scene'}, element('h2', {}, 'Change the scene'),
+      first.map((group) => element('div', {class: 'group'}, group.map(([entry]) => widgetOf.get(entry)))), more);
   }
 
   take(values, command) {

@@ -151,13 +151,13 @@ export class Hand {
   /** What the program says of all hands: forces, and those that this page does not know. */
   hear(list) {
     const told = new Set(list.map(({vertex}) => vertex));
-    for (const {vertex: number, target, force, mean, held} of list) {
+    for (const {vertex: number, target, force, mean, held, step} of list) {
       const known = this.pulls.get(number), vertex = this.surface.placeOfNumber.get(number);
       if (!known && (vertex === undefined || performance.now() - (this.released.get(number) ?? -Infinity) < 500)) continue;
       const pull = known ?? {vertex, number, target: new Vector3(...target), begun: 0};
       Object.assign(pull, {force, mean: mean ?? force, held, size: length(mean ?? force)});
       this.pulls.set(number, pull);
-      this.last = {vertex: number, force, mean: mean ?? force, size: length(force)};
+      this.last = {vertex: number, step, force, mean: mean ?? force, size: length(force)};
     }
     for (const pull of this.pulls.values())
       if (!told.has(pull.number) && this.drag?.pull !== pull && performance.now() - pull.begun > 1000) this.pulls.delete(pull.number);

@@ -33,7 +33,7 @@ export class HandControls {
     this.spring = this.makeSpring();
     this.release = element('button', {type: 'button', title: 'Lets go of all vertices (Esc)', onclick: () => hand.releaseAll()}, 'Release all');
     this.root = element('div', {class: 'hand-controls', role: 'group', 'aria-label': 'The hand'},
-      element('span', {class: 'buttons'}, this.buttons), this.region, this.spring, this.release);
+      element('span', {class: 'buttons'}, this.buttons), this.release, this.region, this.spring);
     this.choose('pull');
   }
 
@@ -47,8 +47,8 @@ export class HandControls {
     });
     const stays = element('input', {type: 'checkbox'});
     stays.addEventListener('change', () => { hand.stays = stays.checked; });
-    return element('span', {class: 'buttons'}, element('label', {class: 'choice'}, element('span', {}, 'Stiffness in N/m'), stiffness),
-      element('label', {class: 'choice', title: 'The spring goes on pulling when you let go; a click on its mark releases it'}, stays, element('span', {}, 'pulls on')));
+    return element('span', {class: 'buttons spring'}, element('label', {class: 'choice'}, element('span', {}, 'Stiffness'), stiffness, element('span', {}, 'N/m')),
+      element('label', {class: 'choice', title: 'The spring goes on pulling when you let go; a click on its mark releases it'}, stays, element('span', {}, 'goes on pulling')));
   }
 
   choose(mode) {

@@ -22,6 +22,11 @@ export class Table {
     if (this.length > MOST) this.thin();
   }
 
+  /** The newest row, by its columns. */
+  last() {
+    return Object.fromEntries(this.names.map((name) => [name, this.columns[name][this.length - 1]]));
+  }
+
   /** The newest rows stay; of those before only some, evenly spread over time. */
   thin() {
     const {time} = this.columns, cut = this.length - NEWEST, apart = (time[cut] - time[0]) / OLDER, kept = [];

@@ -1,4 +1,4 @@
-"""A page in headless Chromium, steered through the pipe of its DevTools: what report.py and live_page.py need of it, not called."""
+"""A page in headless Chromium, steered through the pipe of its DevTools: what report.py and page.py need of it, not called."""
 
 import itertools
 import json

@@ -164,8 +164,8 @@ namespace Supple
     const double finer;
     const MPI_Comm communicator;
     std::unordered_map<unsigned int, unsigned int> own_nodes; ///< by the index in the mesh
-    Hands hands, hands_before;         ///< now, and after the last step
-    std::vector<Deed> done, new_deeds; ///< new: since the last step
+    Hands hands, hands_before;                                ///< now, and after the last step
+    std::vector<Deed> done, new_deeds;                        ///< new: since the last step
     std::unique_ptr<Simulation> simulation;
     Listener *guest = nullptr;
     double stop     = 0.;                 ///< of variable steps; 0: none
