@@ -442,6 +442,15 @@ namespace Supple
 
 
   std::string
+  ParameterFile::value(const std::string &entry) const
+  {
+    require_declared(entry);
+    const auto found = values.find(entry);
+    return found == values.end() ? defaults.at(entry) : found->second;
+  }
+
+
+  std::string
   ParameterFile::origin(const std::string &entry) const
   {
     require_declared(entry);

@@ -3,9 +3,10 @@
 #include <supple/base/error.h>
 #include <supple/live/words.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 #include <set>
-#include <sstream>
 #include <utility>
 
 namespace Supple
@@ -21,8 +22,7 @@ namespace Supple
     {
       words.expect("by");
       std::vector<Pull::End> ends;
-      std::istringstream list(words.rest());
-      for (std::string part; std::getline(list, part, ',');)
+      for (const std::string &part : dealii::Utilities::split_string_list(words.rest(), ','))
         {
           Words of_end(part);
           Pull::End end;
@@ -114,7 +114,8 @@ namespace Supple
       {"take", {&Hands::take, Effect::changes}},
       {"tool", {&Hands::move_tool, Effect::moves}},
       {"set", {&Hands::set_entry, Effect::changes}},
-      {"renew", {&Hands::renew, Effect::changes}}};
+      {"renew", {&Hands::nothing, Effect::changes}},
+      {"wait", {&Hands::nothing, Effect::moves}}};
 
     Words words(text);
     const std::string what = words.word("a deed");
@@ -220,7 +221,7 @@ namespace Supple
 
 
   void
-  Hands::renew(Words &, double)
+  Hands::nothing(Words &, double)
   {
   }
 

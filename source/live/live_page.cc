@@ -86,7 +86,7 @@ namespace Supple
 
 
     Json
-    describe(const std::string &entry, const nlohmann::json &declared)
+    describe(const std::string &entry, const nlohmann::json &declared, const std::string &value)
     {
       const std::string text  = declared.at("documentation");
       const std::string range = between(text, ". Range: ", "\n");
@@ -99,7 +99,7 @@ namespace Supple
             choices.push_back(choice);
           }
       return {{"entry", entry},
-              {"value", declared.at("value")},
+              {"value", value},
               {"unit", between(text, " Unit: ", ". Range: ")},
               {"range", range},
               {"choices", choices},
@@ -107,12 +107,18 @@ namespace Supple
     }
 
 
-    /** Those that the page shows, with their values in the scene. */
+    /** Those that the page shows, with their values in the scene as they are written there. */
     Json
-    entries_of(Parameters scene)
+    entries_of(const Parameters &scene)
     {
+      Parameters presets;
+      for (const ToolParameters &tool : scene.tools)
+        {
+          presets.tools.emplace_back();
+          presets.tools.back().name = tool.name;
+        }
       dealii::ParameterHandler prm;
-      scene.declare(prm); // what is declared has the values of the scene
+      presets.declare(prm);
       std::ostringstream text;
       prm.print_parameters(text, dealii::ParameterHandler::JSON);
       const nlohmann::json all = nlohmann::json::parse(text.str());
@@ -122,7 +128,7 @@ namespace Supple
           {
             const std::string name = plain_name(section.key()) + "/" + plain_name(entry.key());
             if (entry.value().contains("value") && is_shown(name, scene))
-              entries.push_back(describe(name, entry.value()));
+              entries.push_back(describe(name, entry.value(), scene.file.value(name)));
           }
       return entries;
     }
@@ -217,9 +223,10 @@ namespace Supple
       std::string all;
       for (const std::string &file : dealii::Utilities::split_string_list(files, ','))
         {
-          const fs::path path = fs::absolute(fs::path(base) / file).lexically_normal();
+          std::error_code unknown; // then the path stays as it is
+          const fs::path path = fs::weakly_canonical(fs::path(base) / file, unknown);
           all += (all.empty() ? "" : ", ") +
-                 path.lexically_relative(fs::absolute(folder).lexically_normal()).string();
+                 path.lexically_relative(fs::weakly_canonical(folder, unknown)).string();
         }
       return all;
     }

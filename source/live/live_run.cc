@@ -28,7 +28,8 @@ namespace Supple
 
   namespace
   {
-    constexpr std::chrono::milliseconds between_frames(16), between_rows(50), nap(50);
+    constexpr std::chrono::milliseconds between_frames(16), between_rows(50),
+      between_marks(1000), nap(50);
     constexpr std::size_t most_rows = 256; ///< that are told at once
     constexpr double frame_time     = 1. / 60.;
 
@@ -166,6 +167,31 @@ namespace Supple
   {
     interrupt.emplace();
     start_server();
+    try
+      {
+        serve();
+        session->end();
+      }
+    catch (const std::exception &error)
+      {
+        tell({{"kind", "ended"}, {"message", error.what()}});
+        throw;
+      }
+    if (root)
+      {
+        const std::string once_more = "supple " + folder + "/" + repeated_scene_name +
+                                      " does the same once more.";
+        tell({{"kind", "ended"}, {"message", "The session has ended. " + once_more}});
+        server.reset();
+        if (talks)
+          std::cout << "The session is in " << folder << "; " << once_more << std::endl;
+      }
+  }
+
+
+  void
+  LiveRun::serve()
+  {
     while (!ending)
       {
         const Orders orders = shared(root ? next_orders() : Orders());
@@ -185,18 +211,6 @@ namespace Supple
           ending = true;
       }
     again.reset();
-    session->end();
-    if (root)
-      {
-        tell({{"kind", "ended"},
-              {"message",
-               "The session has ended. supple " + folder + "/" + repeated_scene_name +
-                 " does the same once more."}});
-        server.reset();
-        if (talks)
-          std::cout << "The session is in " << folder << "; supple " << folder << "/"
-                    << repeated_scene_name << " does the same once more." << std::endl;
-      }
   }
 
 
@@ -222,6 +236,11 @@ namespace Supple
       last_frame = later;
     if (orders.rows)
       last_rows = later;
+    if (running && later - last_mark >= between_marks)
+      {
+        session->mark_progress();
+        last_mark = later;
+      }
     return orders;
   }
 
@@ -270,7 +289,7 @@ namespace Supple
   {
     Words words(command);
     const std::string what = words.word("a command");
-    changed                = true;
+    changed                = changed || (what != "move" && what != "tool"); // which frames tell
     if (what == "release" || what == "set")
       session->act(command);
     else if (!control(what, words) && !move_by_hand(what, words))
@@ -335,7 +354,6 @@ namespace Supple
         if (const std::string take = session->take(tool); !take.empty())
           session->act(take);
         session->act(move_to("tool " + tool, place));
-        changed = false; // frames and rows tell it
         return true;
       }
     if (what != "grab" && what != "hold" && what != "move")
@@ -348,15 +366,26 @@ namespace Supple
         if (radius < 0. || stiffness < 0.)
           words.refuse("neither radius nor stiffness can be below 0");
         words.expect_end();
+        let_go(vertex);
         session->act(session->grab(vertex, radius, stiffness));
       }
     else
       words.expect_end();
     if (what == "hold")
-      session->act(session->hold(vertex));
+      {
+        let_go(vertex);
+        session->act(session->hold(vertex));
+      }
     session->act(move_to("move " + std::to_string(vertex), place));
-    changed = what != "move"; // frames and rows tell it
     return true;
+  }
+
+
+  void
+  LiveRun::let_go(const unsigned int vertex)
+  {
+    if (session->has_in_hand(vertex))
+      session->act("release " + std::to_string(vertex));
   }
 
 

@@ -344,6 +344,7 @@ namespace Supple
       asio::post(io, [this] {
         Error ignored;
         acceptor.close(ignored);
+        soon.cancel();
         if (const auto open = socket.lock())
           open->close(websocket::close_code::going_away, "the session has ended");
         // whoever does not answer is not waited for
@@ -392,7 +393,17 @@ namespace Supple
             })
             ->start();
         used = processor_seconds();
-        accept();
+        if (!error)
+          {
+            accept();
+            return;
+          }
+        // There may be no descriptors left: in a moment there may be.
+        soon.expires_after(std::chrono::milliseconds(100));
+        soon.async_wait([this](const Error &stopped) {
+          if (!stopped)
+            accept();
+        });
       });
     }
 
@@ -456,7 +467,7 @@ namespace Supple
     LiveContent content;
     asio::io_context io{1};
     tcp::acceptor acceptor;
-    asio::steady_timer last_moments{io};
+    asio::steady_timer last_moments{io}, soon{io};
     const std::string token;
     std::string host;
     std::weak_ptr<LiveSocket> socket;

@@ -4,15 +4,21 @@
 #include <supple/base/files.h>
 #include <supple/base/text.h>
 
+#include <deal.II/base/utilities.h>
+
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <sstream>
 
 namespace Supple
 {
   namespace
   {
+    constexpr unsigned long most_steps = std::numeric_limits<unsigned int>::max();
+
     Deed
     deed_of(const std::string &line, const std::string &place)
     {
@@ -21,10 +27,11 @@ namespace Supple
       words >> step_word >> step >> time_word >> time;
       std::getline(words >> std::ws, text);
       char *step_end, *time_end;
+      errno                      = 0;
       const unsigned long number = std::strtoul(step.c_str(), &step_end, 10);
       const double at            = std::strtod(time.c_str(), &time_end);
       if (step_word != "step" || time_word != "time" || step.empty() || *step_end != '\0' ||
-          step[0] == '-' || time.empty() || *time_end != '\0' || !std::isfinite(at) || text.empty())
+          step[0] == '-' || errno != 0 || number > most_steps || time.empty() || *time_end != '\0' || !std::isfinite(at) || at < 0. || text.empty())
         throw InputError(place + ": found '" + line +
                          "'; a line of a motion is \"step NUMBER time SECONDS DEED\", such as "
                          "\"step 118 time 1.9666 release 57\".");
@@ -43,7 +50,8 @@ namespace Supple
     std::string line;
     for (unsigned int number = 1; std::getline(lines, line); ++number)
       {
-        const auto first = line.find_first_not_of(" \t\r");
+        line             = dealii::Utilities::trim(line); // of blanks, and of a carriage return
+        const auto first = line.find_first_not_of(' ');
         if (first == std::string::npos || line[first] == '#')
           continue;
         const std::string place = file + ":" + std::to_string(number);

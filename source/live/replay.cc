@@ -32,15 +32,16 @@ namespace Supple
         throw InputError(first.origin(entry) +
                          ": the other run would know nothing of hands. Repeat the motion with half "
                          "the step, Live/By = time, and compare.");
-    of_deeds.check(deeds);
     if (deeds.empty())
       throw InputError(first.origin("Live/Motion") + ": nothing is done in this file.");
+    of_deeds.check(deeds, false);
   }
 
 
   void
   Replay::check()
   {
+    of_deeds.check(deeds, true);
     of_deeds.check_start();
     if (talks)
       std::cout << "  by hand    " << deeds.size() - (deeds.back().text == end_of_motion)
@@ -128,5 +129,9 @@ namespace Supple
       }
     progress.clear();
     of_deeds.end();
+    if (talks && deeds.back().text != end_of_motion)
+      std::cout << "  warning     The motion has no end: its session was cut off. It was repeated up "
+                   "to its last line, "
+                << of_deeds.now().time() << " s." << std::endl;
   }
 } // namespace Supple

@@ -152,14 +152,14 @@ namespace Supple
 
 
   void
-  Session::check(const std::vector<Deed> &deeds) const
+  Session::check(const std::vector<Deed> &deeds, const bool thoroughly)
   {
     Hands trial;
     for (const Deed &deed : deeds)
       if (deed.text != end_of_motion)
         try
           {
-            trial.apply(deed.text, deed.time);
+            const Hands::Effect effect = trial.apply(deed.text, deed.time);
             if (deed.text.rfind("set ", 0) == 0)
               for_session(read(trial.overrides()));
             Parameters scene = first;
@@ -169,11 +169,17 @@ namespace Supple
                 require_vertex(end.vertex);
             for (const auto &[vertex, path] : trial.holds())
               require_vertex(vertex);
+            if (thoroughly && effect == Hands::Effect::changes)
+              {
+                hands = trial;
+                Problem(present_scene(), simulation->present().shared_mesh);
+              }
           }
         catch (const InputError &error)
           {
             throw InputError(deed.place + ": " + error.what());
           }
+    hands = Hands();
   }
 
 
@@ -203,19 +209,49 @@ namespace Supple
     simulation->begin(guest);
     if (folder.empty() || Utilities::MPI::this_mpi_process(communicator) != 0)
       return;
-    const std::string file = folder + "/" + motion_file_name;
-    motion_file.open(file, std::ios::trunc);
-    for (const Deed &deed : done)
-      motion_file << line_of(deed);
-    motion_file.flush();
-    if (!motion_file)
-      throw WriteError(file + " can't be written.");
+    begin_motion_file(deeds);
     if (first.output.history)
       {
         const std::string table = folder + "/" + grips_file;
         grips_table             = from ? std::make_unique<CsvFile>(table, grip_columns(), *from)
                                        : std::make_unique<CsvFile>(table, grip_columns());
       }
+  }
+
+
+  /** Of a repetition all is there at once: its folder may be that of the session. */
+  void
+  Session::begin_motion_file(const std::vector<Deed> &deeds)
+  {
+    const std::string file = folder + "/" + motion_file_name;
+    std::string all;
+    for (const Deed &deed : deeds)
+      all += line_of(deed);
+    write_whole_file(file, all);
+    if (!deeds.empty())
+      return;
+    motion_file.open(file, std::ios::app);
+    if (!motion_file)
+      throw WriteError(file + " can't be written.");
+  }
+
+
+  void
+  Session::mark_progress()
+  {
+    write_deed({now().measurement().step, now().time(), "wait", ""});
+  }
+
+
+  void
+  Session::write_deed(const Deed &deed)
+  {
+    if (!motion_file.is_open())
+      return;
+    motion_file << line_of(deed) << std::flush;
+    if (!motion_file)
+      throw WriteError(folder + "/" + motion_file_name +
+                       " can't be written any more; is the disk full?");
   }
 
 
@@ -288,12 +324,8 @@ namespace Supple
     for (const Deed &deed : new_deeds)
       {
         done.push_back(deed);
-        if (motion_file.is_open())
-          motion_file << line_of(deed);
+        write_deed(deed);
       }
-    if (motion_file.is_open() && !new_deeds.empty() && !motion_file.flush())
-      throw WriteError(folder + "/" + motion_file_name +
-                       " can't be written any more; is the disk full?");
     new_deeds.clear();
   }
 

@@ -78,48 +78,48 @@ namespace Supple
   void
   Diagnostics::note_extremes(const Measurement &measurement, const double rise)
   {
-    largest_energy = std::max({largest_energy, std::abs(measurement.total), std::abs(work)});
-    worst.min_volume_ratio = std::min(worst.min_volume_ratio, measurement.min_volume_ratio);
-    worst.max_volume_ratio = std::max(worst.max_volume_ratio, measurement.max_volume_ratio);
-    worst.most_inverted    = std::max(worst.most_inverted, measurement.inverted);
-    if (rise > energy_accuracy * largest_energy)
+    sums.largest_energy = std::max({sums.largest_energy, std::abs(measurement.total), std::abs(sums.work)});
+    sums.worst.min_volume_ratio = std::min(sums.worst.min_volume_ratio, measurement.min_volume_ratio);
+    sums.worst.max_volume_ratio = std::max(sums.worst.max_volume_ratio, measurement.max_volume_ratio);
+    sums.worst.most_inverted    = std::max(sums.worst.most_inverted, measurement.inverted);
+    if (rise > energy_accuracy * sums.largest_energy)
       {
-        ++worst.energy_rises;
-        worst.energy_risen += rise;
+        ++sums.worst.energy_rises;
+        sums.worst.energy_risen += rise;
       }
-    most_dissipated     = std::max(most_dissipated, measurement.dissipated);
-    worst.energy_gained = std::max(worst.energy_gained, most_dissipated - measurement.dissipated);
-    worst.motion_energy = std::max(worst.motion_energy, measurement.kinetic + measurement.elastic);
+    sums.most_dissipated     = std::max(sums.most_dissipated, measurement.dissipated);
+    sums.worst.energy_gained = std::max(sums.worst.energy_gained, sums.most_dissipated - measurement.dissipated);
+    sums.worst.motion_energy = std::max(sums.worst.motion_energy, measurement.kinetic + measurement.elastic);
   }
 
 
   nlohmann::json
   Diagnostics::save() const
   {
-    nlohmann::json saved = {{"elastic", elastic},
-                            {"total", total},
-                            {"dissipated", dissipated},
-                            {"most_dissipated", most_dissipated},
-                            {"work", work},
-                            {"largest_energy", largest_energy},
-                            {"energy_rises", worst.energy_rises},
-                            {"energy_risen", worst.energy_risen},
-                            {"energy_gained", worst.energy_gained},
-                            {"motion_energy", worst.motion_energy},
-                            {"most_inverted", worst.most_inverted},
-                            {"min_volume_ratio", worst.min_volume_ratio},
-                            {"max_volume_ratio", worst.max_volume_ratio},
-                            {"not_finite", worst.not_finite}};
+    nlohmann::json saved = {{"elastic", sums.elastic},
+                            {"total", sums.total},
+                            {"dissipated", sums.dissipated},
+                            {"most_dissipated", sums.most_dissipated},
+                            {"work", sums.work},
+                            {"largest_energy", sums.largest_energy},
+                            {"energy_rises", sums.worst.energy_rises},
+                            {"energy_risen", sums.worst.energy_risen},
+                            {"energy_gained", sums.worst.energy_gained},
+                            {"motion_energy", sums.worst.motion_energy},
+                            {"most_inverted", sums.worst.most_inverted},
+                            {"min_volume_ratio", sums.worst.min_volume_ratio},
+                            {"max_volume_ratio", sums.worst.max_volume_ratio},
+                            {"not_finite", sums.worst.not_finite}};
     if (forces.contact())
       {
         std::vector<double> works;
-        for (const ToolReport &tool : contact.tools)
+        for (const ToolReport &tool : sums.contact.tools)
           works.push_back(tool.work);
-        saved["contact"] = {{"energy", contact.energy},
-                            {"rubbed", contact.rubbed},
+        saved["contact"] = {{"energy", sums.contact.energy},
+                            {"rubbed", sums.contact.rubbed},
                             {"works", works},
-                            {"releases", worst.releases},
-                            {"gaps", worst.gaps}};
+                            {"releases", sums.worst.releases},
+                            {"gaps", sums.worst.gaps}};
       }
     return saved;
   }
@@ -128,33 +128,33 @@ namespace Supple
   void
   Diagnostics::load(const nlohmann::json &saved)
   {
-    first                  = false;
-    elastic                = saved.at("elastic");
-    total                  = saved.at("total");
-    dissipated             = saved.at("dissipated");
-    most_dissipated        = saved.at("most_dissipated");
-    work                   = saved.at("work");
-    largest_energy         = saved.at("largest_energy");
-    worst.energy_rises     = saved.at("energy_rises");
-    worst.energy_risen     = saved.at("energy_risen");
-    worst.energy_gained    = saved.at("energy_gained");
-    worst.motion_energy    = saved.at("motion_energy");
-    worst.most_inverted    = saved.at("most_inverted");
-    worst.min_volume_ratio = saved.at("min_volume_ratio");
-    worst.max_volume_ratio = saved.at("max_volume_ratio");
-    worst.not_finite       = saved.at("not_finite");
+    sums.first                  = false;
+    sums.elastic                = saved.at("elastic");
+    sums.total                  = saved.at("total");
+    sums.dissipated             = saved.at("dissipated");
+    sums.most_dissipated        = saved.at("most_dissipated");
+    sums.work                   = saved.at("work");
+    sums.largest_energy         = saved.at("largest_energy");
+    sums.worst.energy_rises     = saved.at("energy_rises");
+    sums.worst.energy_risen     = saved.at("energy_risen");
+    sums.worst.energy_gained    = saved.at("energy_gained");
+    sums.worst.motion_energy    = saved.at("motion_energy");
+    sums.worst.most_inverted    = saved.at("most_inverted");
+    sums.worst.min_volume_ratio = saved.at("min_volume_ratio");
+    sums.worst.max_volume_ratio = saved.at("max_volume_ratio");
+    sums.worst.not_finite       = saved.at("not_finite");
     if (forces.contact())
       {
         const nlohmann::json &of_tools = saved.at("contact");
-        contact.energy                 = of_tools.at("energy");
-        contact.rubbed                 = of_tools.at("rubbed");
-        worst.releases                 = of_tools.at("releases");
-        worst.gaps                     = of_tools.at("gaps").get<std::vector<double>>();
-        contact.tools.clear();
-        for (const double work : of_tools.at("works"))
+        sums.contact.energy                 = of_tools.at("energy");
+        sums.contact.rubbed                 = of_tools.at("rubbed");
+        sums.worst.releases                 = of_tools.at("releases");
+        sums.worst.gaps                     = of_tools.at("gaps").get<std::vector<double>>();
+        sums.contact.tools.clear();
+        for (const double done : of_tools.at("works"))
           {
-            contact.tools.emplace_back();
-            contact.tools.back().work = work;
+            sums.contact.tools.emplace_back();
+            sums.contact.tools.back().work = done;
           }
       }
   }
@@ -164,11 +164,11 @@ namespace Supple
   Diagnostics::book_change(const double time)
   {
     const Measurement now = measure_body(time, nullptr);
-    work += now.total - total;
-    elastic = now.elastic;
-    total   = now.total;
+    sums.work += now.total - sums.total;
+    sums.elastic = now.elastic;
+    sums.total   = now.total;
     if (now.contact)
-      contact.energy = now.contact->energy;
+      sums.contact.energy = now.contact->energy;
   }
 
 
@@ -224,7 +224,7 @@ namespace Supple
   Diagnostics::measure_contact(Measurement::Contact &now, const StepReport &report) const
   {
     now.tools                       = forces.contact()->reports(configuration);
-    now.rubbed                      = contact.rubbed + report.rubbed;
+    now.rubbed                      = sums.contact.rubbed + report.rubbed;
     const std::optional<double> own = forces.contact()->own_gap(configuration);
     const bool has_tools            = !now.tools.empty();
     now.min_gap                     = own.value_or(has_tools ? std::numeric_limits<double>::max()
@@ -233,8 +233,8 @@ namespace Supple
     for (std::size_t t = 0; t < now.tools.size(); ++t)
       {
         now.min_gap = std::min(now.min_gap, now.tools[t].gap);
-        if (t < contact.tools.size())
-          now.tools[t].work = contact.tools[t].work;
+        if (t < sums.contact.tools.size())
+          now.tools[t].work = sums.contact.tools[t].work;
         if (t < report.tool_works.size())
           now.tools[t].work += report.tool_works[t];
       }
@@ -244,11 +244,11 @@ namespace Supple
   void
   Diagnostics::note_contact(const Measurement::Contact &now)
   {
-    worst.releases += contact.energy > 0. && now.energy == 0.;
-    worst.gaps.resize(now.tools.size(), std::numeric_limits<double>::max());
+    sums.worst.releases += sums.contact.energy > 0. && now.energy == 0.;
+    sums.worst.gaps.resize(now.tools.size(), std::numeric_limits<double>::max());
     for (std::size_t t = 0; t < now.tools.size(); ++t)
-      worst.gaps[t] = std::min(worst.gaps[t], now.tools[t].gap);
-    contact = now;
+      sums.worst.gaps[t] = std::min(sums.worst.gaps[t], now.tools[t].gap);
+    sums.contact = now;
   }
 
 
@@ -258,6 +258,7 @@ namespace Supple
                        const double seconds,
                        const StepReport &report)
   {
+    before                   = sums;
     Measurement result       = measure_body(time, report.momentum);
     result.step              = step;
     result.time              = time;
@@ -268,34 +269,34 @@ namespace Supple
     if (result.contact)
       measure_contact(*result.contact, report);
 
-    result.dissipated = dissipated - (stationary ? 0. : report.rubbed);
-    if (!first && report.expended)
+    result.dissipated = sums.dissipated - (stationary ? 0. : report.rubbed);
+    if (!sums.first && report.expended)
       {
-        result.dissipated += *report.expended - (result.elastic - elastic);
+        result.dissipated += *report.expended - (result.elastic - sums.elastic);
         if (result.contact) // the tools have paid for a part of it
           result.dissipated += std::accumulate(report.tool_works.begin(),
                                                report.tool_works.end(),
-                                               contact.energy - result.contact->energy);
+                                               sums.contact.energy - result.contact->energy);
       }
-    else if (!first && !stationary)
-      result.dissipated += report.load_work - (result.total - total);
-    else if (!first)
+    else if (!sums.first && !stationary)
+      result.dissipated += report.load_work - (result.total - sums.total);
+    else if (!sums.first)
       result.dissipated += forces.dissipated(configuration, 1.);
-    result.work = work + report.load_work;
+    result.work = sums.work + report.load_work;
     if (!result.not_finite().empty())
       {
-        ++worst.not_finite;
+        ++sums.worst.not_finite;
         return result;
       }
 
-    note_extremes(result, first || stationary ? 0. : result.total - total - report.load_work);
+    note_extremes(result, sums.first || stationary ? 0. : result.total - sums.total - report.load_work);
     if (result.contact)
       note_contact(*result.contact);
-    dissipated = result.dissipated;
-    work       = result.work;
-    elastic    = result.elastic;
-    total      = result.total;
-    first      = false;
+    sums.dissipated = result.dissipated;
+    sums.work       = result.work;
+    sums.elastic    = result.elastic;
+    sums.total      = result.total;
+    sums.first      = false;
     return result;
   }
 } // namespace Supple

@@ -325,6 +325,8 @@ namespace Supple
   Simulation::Legacy
   Simulation::leave()
   {
+    if (refused)
+      diagnostics.forget_last_step();
     nlohmann::json kept = nlohmann::json::object();
     listeners.save(kept);
     nlohmann::json rest = {{"course", course.save()},
@@ -489,6 +491,7 @@ namespace Supple
     if (next.step > 0)
       {
         problem.configuration.reject(problem.effort);
+        refused = true;
         throw ComputationError(what);
       }
     const Parameters &parameters = problem.parameters;

@@ -128,7 +128,13 @@ namespace Supple
   {
     nlohmann::json all = nlohmann::json::array();
     for (const Course &course : courses)
-      all.push_back({course.lowest, course.highest, course.excess, course.from, course.to});
+      all.push_back({{"entry", course.of.entry},
+                     {"text", course.of.text},
+                     {"lowest", course.lowest},
+                     {"highest", course.highest},
+                     {"excess", course.excess},
+                     {"from", course.from},
+                     {"to", course.to}});
     return all;
   }
 
@@ -136,14 +142,16 @@ namespace Supple
   void
   SkippedPulses::load(const nlohmann::json &saved)
   {
-    for (std::size_t k = 0; k < courses.size(); ++k)
-      {
-        const nlohmann::json &values = saved.at(k);
-        courses[k].lowest            = values.at(0);
-        courses[k].highest           = values.at(1);
-        courses[k].excess            = values.at(2);
-        courses[k].from              = values.at(3);
-        courses[k].to                = values.at(4);
-      }
+    // A scene that has changed since then may have other ones.
+    for (Course &course : courses)
+      for (const nlohmann::json &values : saved)
+        if (values.at("entry") == course.of.entry && values.at("text") == course.of.text)
+          {
+            course.lowest  = values.at("lowest");
+            course.highest = values.at("highest");
+            course.excess  = values.at("excess");
+            course.from    = values.at("from");
+            course.to      = values.at("to");
+          }
   }
 } // namespace Supple

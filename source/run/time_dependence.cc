@@ -202,7 +202,7 @@ namespace Supple
             continue;
           Expression value(text, 1, parameters.origin(entry));
           if (value.depends_on_time())
-            list.push_back({entry, std::move(value), points_in(box, text), numbers_in(text)});
+            list.push_back({entry, text, std::move(value), points_in(box, text), numbers_in(text)});
         }
     };
     const LoadParameters &loads = parameters.loads;

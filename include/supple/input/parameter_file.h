@@ -65,6 +65,11 @@ namespace Supple
     bool
     changes(const std::string &entry) const;
 
+    /** The value of an entry, as it is written or as it is by default. @throws std::logic_error as
+     * place() */
+    std::string
+    value(const std::string &entry) const;
+
     /** The name of the file without folder and ending. */
     std::string
     name() const;

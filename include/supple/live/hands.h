@@ -25,6 +25,7 @@ namespace Supple
    *   tool NAME x y z over S              and moves it
    *   set Section/Entry=value             an entry of the scene is another one from here on
    *   renew                               all is made anew from the present state
+   *   wait                                nothing: the session has come so far
    *
    * Vertices are told by their index in the mesh before partitioning.
    */
@@ -109,7 +110,7 @@ namespace Supple
     void
     set_entry(Words &words, double time);
     void
-    renew(Words &words, double time);
+    nothing(Words &words, double time);
 
     /** The next word, a vertex that no hand has. */
     unsigned int

@@ -64,6 +64,10 @@ namespace Supple
     void
     start_server();
 
+    /** Until the page or the user ends it. */
+    void
+    serve();
+
     /** Waits for what is to be done. */
     Orders
     next_orders();
@@ -85,6 +89,10 @@ namespace Supple
     /** Does what a page says of a hand. @return whether it says that */
     bool
     move_by_hand(const std::string &what, Words &words);
+
+    /** Releases a vertex that is to be taken otherwise. */
+    void
+    let_go(unsigned int vertex);
 
     void
     take_step();
@@ -132,7 +140,7 @@ namespace Supple
     Mailbox mailbox;                               ///< on the first process
     std::unique_ptr<LiveServer> server;            ///< on the first process
     Pace pace;                                     ///< on the first process
-    Pace::Clock::time_point last_frame, last_rows; ///< on the first process
+    Pace::Clock::time_point last_frame, last_rows, last_mark; ///< on the first process
     std::optional<InterruptGuard> interrupt;
 
     bool running = false, ending = false, changed = false;

@@ -42,9 +42,10 @@ namespace Supple
             double finer,
             MPI_Comm communicator);
 
-    /** Throws InputError with the first of these deeds that can't be done, and why. */
+    /** Throws InputError with the first of these deeds that can't be done, and why; to be called
+     * before begin(). @param thoroughly with all that each scene on the way is made of */
     void
-    check(const std::vector<Deed> &deeds) const;
+    check(const std::vector<Deed> &deeds, bool thoroughly);
 
     /** The same as Simulation::check(). */
     void
@@ -74,6 +75,11 @@ namespace Supple
     /** Variable steps end at this time [s] at the latest. */
     void
     stop_at(double time);
+
+    /** Says in the motion file how far the session has come: if it is killed, its repetition goes
+     * so far. */
+    void
+    mark_progress();
 
     /** Completes all files. */
     void
@@ -109,6 +115,13 @@ namespace Supple
 
     std::vector<Grip>
     grips() const;
+
+    /** Whether a hand has this vertex. */
+    bool
+    has_in_hand(const unsigned int vertex) const
+    {
+      return hands.grabs(vertex) || hands.holds(vertex);
+    }
 
     /** The deed that pulls a vertex, and those within a radius [m] of it at rest.
      * @param stiffness of its spring [N/m]; 0: ten times what the body opposes to it there
@@ -146,6 +159,13 @@ namespace Supple
 
     void
     write_grips();
+
+    void
+    begin_motion_file(const std::vector<Deed> &deeds);
+
+    /** Into the motion file, if there is one. @throws WriteError */
+    void
+    write_deed(const Deed &deed);
 
     dealii::Point<3>
     place_of(unsigned int vertex) const;

@@ -34,6 +34,13 @@ namespace Supple
     Measurement
     measure(unsigned int step, double time, double seconds, const StepReport &report);
 
+    /** As if the last step had not been measured. */
+    void
+    forget_last_step()
+    {
+      sums = before;
+    }
+
     /** What a checkpoint has to keep of it. */
     nlohmann::json
     save() const;
@@ -49,7 +56,7 @@ namespace Supple
     const Extremes &
     extremes() const
     {
-      return worst;
+      return sums.worst;
     }
 
   private:
@@ -71,15 +78,21 @@ namespace Supple
     const Configuration &configuration;
     const Forces &forces;
     const bool stationary;
-    Extremes worst;
-    double largest_energy  = 0.;
-    bool first             = true;
-    double elastic         = 0.;
-    double total           = 0.;
-    double dissipated      = 0.;
-    double most_dissipated = 0.; ///< so far
-    double work            = 0.;
-    Measurement::Contact contact; ///< of the last step
+
+    /** Of all steps so far. */
+    struct Sums
+    {
+      Extremes worst;
+      double largest_energy  = 0.;
+      bool first             = true;
+      double elastic         = 0.; ///< of the last step
+      double total           = 0.; ///< of the last step
+      double dissipated      = 0.;
+      double most_dissipated = 0.; ///< so far
+      double work            = 0.;
+      Measurement::Contact contact; ///< of the last step
+    };
+    Sums sums, before; ///< before: without the last step
   };
 } // namespace Supple
 

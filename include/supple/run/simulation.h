@@ -308,6 +308,7 @@ namespace Supple
     Interruption interruption;
     Listeners listeners;
     bool observed = false; ///< somebody asks for energies and reactions
+    bool refused  = false; ///< the last step was measured, but its state is the one before
     bool probed   = false; ///< somebody asks for values of probes
 
     std::vector<double> probes_now;         ///< the row of probes.csv

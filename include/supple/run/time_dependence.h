@@ -14,7 +14,7 @@ namespace Supple
   /** One component of a load or prescribed motion that depends on time. */
   struct TimeDependence
   {
-    std::string entry;
+    std::string entry, text; ///< what sets it, and as what
     Expression value;
     std::vector<dealii::Point<3>> points; ///< at which its values may differ
     std::vector<double> numbers;          ///< in its text, perhaps times [s], ascending
