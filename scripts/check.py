@@ -17,8 +17,10 @@ CODE = {".cc", ".h", ".py", ".js", ".mjs", ".css", ".sh"}
 NO_TEXT = {".png", ".svg", ".msh", ".output", ".csv", ".json"}
 # The folders of include/supple and source, from the ground up: each includes from those before it.
 FLOORS = ["base", "input", "linear_algebra", "multigrid", "mesh", "mechanics", "contact", "forces", "solvers", "time", "observe", "output",
-          "scene", "report", "run", "study", "identification", "program"]
-BESIDE = {("study", "identification"), ("identification", "study")}
+          "scene", "report", "run", "study", "identification", "live", "program"]
+# None of these knows another.
+TASKS = ["study", "identification", "live"]
+BESIDE = {(one, other) for one in TASKS for other in TASKS if one != other}
 # What is measured and written does not depend on who made the step: of `time` it knows what a step reports.
 ONLY = {("observe", "time"): "supple/time/step_report.h", ("output", "time"): "supple/time/step_report.h"}
 SCOPE = re.compile(r"\s*(inline )?(namespace|struct|class|enum|union|extern)\b")

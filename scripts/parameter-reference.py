@@ -35,6 +35,7 @@ SUBJECTS = {
     "Probes": "Which points, boundaries, regions and surfaces are followed over time.",
     "Space": "The error that the mesh makes.",
     "Checkpoint": "To go on with a run that was ended.",
+    "Live": "What was done by hand in a live session, to be repeated.",
     "Study": "Many runs of one scene, compared. A file of its own, with this subsection alone.",
     "Identification": "Two layers of skin fitted to measured surfaces. A file of its own, with this subsection alone.",
 }

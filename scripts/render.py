@@ -3,6 +3,7 @@
     scripts/render.sh OUTPUT_FOLDER PICTURE.png [--times 0 0.14 7] [--below OTHER_OUTPUT_FOLDER...] [further options]
     scripts/render.sh OUTPUT_FOLDER SHEET.png --sheet 12      twelve frames spread over the run
     scripts/render.sh OUTPUT_FOLDER FILM.mp4 [--seconds 8]    all frames, each shown until the next one's time
+    scripts/render.sh OUTPUT_FOLDER FILM.webp [--seconds 8]   the same as a picture that moves, for pages
 
 The bodies are drawn in parallel projection and fill their views; the picture is as high as it must be. All runs have the
 same scale and colours. The field that colours them may be a component (displacement_2); of a vector, else, its length.
@@ -28,6 +29,9 @@ UNITS = {"displacement": "m", "velocity": "m/s", "von_mises_stress": "Pa"}
 PREFIXES = [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "µ")]
 MARGIN, HEAD, FOOT = 0.04, 44, 68    # empty part of a view's width; pixels above a body, and of the colour bar
 TEXT_SIZE = 24
+# How ffmpeg writes them.
+FILMS = {".mp4": ["-vf", "fps=25,format=yuv420p", "-c:v", "libx264", "-crf", "20", "-movflags", "+faststart"],
+         ".webp": ["-vf", "fps=12", "-c:v", "libwebp_anim", "-quality", "70", "-compression_level", "6", "-loop", "0"]}
 
 
 def unit(field, largest):
@@ -308,8 +312,8 @@ def draw_film(runs, arguments):
             script += [f"file {i}.png", f"duration {max(0.02, (until - time) * scale):.6f}"]
         script.append(f"file {len(times) - 1}.png")
         pathlib.Path(folder, "script").write_text("\n".join(script))
-        subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-f", "concat", "-i", f"{folder}/script", "-vf", "fps=25,format=yuv420p",
-                        "-c:v", "libx264", "-crf", "20", "-movflags", "+faststart", arguments.picture], check=True)
+        subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-f", "concat", "-i", f"{folder}/script",
+                        *FILMS[pathlib.Path(arguments.picture).suffix], arguments.picture], check=True)
 
 
 def choose(folder, times):
@@ -327,7 +331,7 @@ def choose(folder, times):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=pathlib.Path, help="output folder of a run")
-    parser.add_argument("picture", help="PNG or MP4 file to write")
+    parser.add_argument("picture", help="PNG, MP4 or WebP file to write")
     parser.add_argument("--below", type=pathlib.Path, nargs="+", default=[], help="output folders of other runs, drawn below the first")
     parser.add_argument("--names", nargs="+", default=[], help="what the runs are called")
     parser.add_argument("--times", type=float, nargs="+", help="instants [s]; the nearest frames are taken")
@@ -348,7 +352,7 @@ def main():
 
     folders = [arguments.folder, *arguments.below]
     arguments.names = (arguments.names + [""] * len(folders))[:len(folders)]
-    if arguments.picture.endswith(".mp4"):
+    if pathlib.Path(arguments.picture).suffix in FILMS:
         arguments.width -= arguments.width % 2
         draw_film([read_frames(folder) for folder in folders], arguments)
         return

@@ -10,8 +10,8 @@ namespace Supple
   using dealii::unit_symmetric_tensor;
 
   Friction::Friction(const std::vector<double> &coefficients, const double slip_resolution)
-    : coefficients(coefficients)
-    , slip_resolution(slip_resolution)
+    : slip_resolution(slip_resolution)
+    , coefficients(coefficients)
   {
   }
 

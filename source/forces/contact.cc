@@ -646,33 +646,24 @@ namespace Supple
   }
 
 
-  std::optional<double>
-  Contact::own_gap(const Configuration &configuration) const
+  std::optional<ContactPair>
+  Contact::nearest_own_pair(const Configuration &configuration) const
   {
     if (bodies == ContactParameters::Bodies::tools)
       return {};
     const GhostValues u(configuration.displacement());
-    std::optional<double> least;
+    std::optional<ContactPair> nearest;
     for (const ContactPair &pair : pairs(u.data(), configuration.passage))
-      if (pair.other)
-        least = std::min(least.value_or(pair.gap), pair.gap);
-    return least;
+      if (pair.other && (!nearest || pair.gap < nearest->gap))
+        nearest = pair;
+    return nearest;
   }
 
 
-  Vector
-  Contact::pressure(const Configuration &configuration) const
+  std::optional<double>
+  Contact::own_gap(const Configuration &configuration) const
   {
-    Vector pressure;
-    body.initialize(pressure);
-    const GhostValues u(configuration.displacement());
-    sum_into(pressure, [&](double *const sum) {
-      for (const ContactPair &pair : pairs(u.data(), configuration.passage))
-        for (unsigned int v = 0; v < pair.n; ++v)
-          sum[3 * pair.nodes[v]] += std::abs(pair.c[v]) * force_of(pair).norm();
-      for (const SurfacePart &vertex : surface.vertices)
-        sum[3 * vertex.nodes[0]] /= vertex.measure;
-    });
-    return pressure;
+    const std::optional<ContactPair> nearest = nearest_own_pair(configuration);
+    return nearest ? std::optional<double>(nearest->gap) : std::nullopt;
   }
 } // namespace Supple

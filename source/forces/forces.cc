@@ -23,10 +23,7 @@ namespace Supple
                                              const ParameterFile &);
 
     /** Of each kind of load that a scene can have; null where it has none. */
-    constexpr Maker load_makers[] = {DeadLoads::make,
-                                     make_pressure,
-                                     Gravity::make,
-                                     Pulls::make};
+    constexpr Maker load_makers[] = {DeadLoads::make, make_pressure, Gravity::make, Pulls::make};
 
     bool
     is_dead_load(const Force &force)

@@ -89,8 +89,8 @@ namespace Supple
       }
 
     require_single(line.overrides);
-    const bool needs_scene = line.action == Action::run || line.action == Action::check ||
-                             line.action == Action::live;
+    const bool needs_scene =
+      line.action == Action::run || line.action == Action::check || line.action == Action::live;
     if (needs_scene && line.scene.empty())
       throw InputError("A scene is missing.\n\n" + help());
     return line;

@@ -1,11 +1,12 @@
 #include <supple/live/hands.h>
 
 #include <supple/base/error.h>
+#include <supple/live/words.h>
 
-#include <array>
-#include <cmath>
+#include <algorithm>
 #include <set>
 #include <sstream>
+#include <utility>
 
 namespace Supple
 {
@@ -14,98 +15,6 @@ namespace Supple
   namespace
   {
     using SharedPath = std::shared_ptr<HandPath>;
-
-    /** The words of a deed, one after the other. */
-    class Words
-    {
-    public:
-      explicit Words(const std::string &text)
-        : text(text)
-        , words(text)
-      {
-      }
-
-      std::string
-      word(const std::string &what)
-      {
-        std::string found;
-        if (!(words >> found))
-          refuse(what + " is missing");
-        return found;
-      }
-
-      void
-      expect(const std::string &wanted)
-      {
-        if (const std::string found = word("'" + wanted + "'"); found != wanted)
-          refuse("found '" + found + "' where '" + wanted + "' must be");
-      }
-
-      double
-      number(const std::string &what)
-      {
-        const std::string found = word(what);
-        char *end;
-        const double value = std::strtod(found.c_str(), &end);
-        if (*end != '\0' || !std::isfinite(value))
-          refuse(what + " is '" + found + "', not a finite number");
-        return value;
-      }
-
-      unsigned int
-      vertex()
-      {
-        const double value = number("the index of a vertex");
-        if (value < 0. || value != std::floor(value) || value > 4e9)
-          refuse("the index of a vertex must be a whole number");
-        return static_cast<unsigned int>(value);
-      }
-
-      Tensor<1, 3>
-      place()
-      {
-        Tensor<1, 3> place;
-        for (unsigned int i = 0; i < 3; ++i)
-          place[i] = number(std::string("coordinate ") + "xyz"[i]);
-        return place;
-      }
-
-      double
-      duration()
-      {
-        expect("over");
-        const double duration = number("a duration");
-        if (duration <= 0.)
-          refuse("a duration must be greater than 0");
-        return duration;
-      }
-
-      std::string
-      rest()
-      {
-        std::string rest;
-        std::getline(words >> std::ws, rest);
-        return rest;
-      }
-
-      void
-      expect_end()
-      {
-        if (const std::string more = rest(); !more.empty())
-          refuse("nothing more may follow, and there is '" + more + "'");
-      }
-
-      [[noreturn]] void
-      refuse(const std::string &why) const
-      {
-        throw InputError("\"" + text + "\": " + why + ".");
-      }
-
-    private:
-      const std::string text;
-      std::istringstream words;
-    };
-
 
     std::vector<Pull::End>
     ends_of(Words &words)
@@ -196,81 +105,123 @@ namespace Supple
   Hands::Effect
   Hands::apply(const std::string &text, const double time)
   {
+    using Deed = void (Hands::*)(Words &, double);
+    static const std::map<std::string, std::pair<Deed, Effect>> deeds = {
+      {"grab", {&Hands::grab, Effect::changes}},
+      {"hold", {&Hands::hold, Effect::changes}},
+      {"move", {&Hands::move, Effect::moves}},
+      {"release", {&Hands::release, Effect::changes}},
+      {"take", {&Hands::take, Effect::changes}},
+      {"tool", {&Hands::move_tool, Effect::moves}},
+      {"set", {&Hands::set_entry, Effect::changes}},
+      {"renew", {&Hands::renew, Effect::changes}}};
+
     Words words(text);
     const std::string what = words.word("a deed");
-    if (what == "grab" || what == "hold")
-      {
-        const unsigned int vertex = words.vertex();
-        if (grabs(vertex) || holds(vertex))
-          words.refuse("a hand has this vertex already");
-        const auto path = std::make_shared<HandPath>(words.place(), time);
-        if (what == "grab")
-          grabbed[vertex] = {ends_of(words), path};
-        else
-          {
-            words.expect_end();
-            held[vertex] = path;
-          }
-        return Effect::changes;
-      }
-    if (what == "move")
-      {
-        const unsigned int vertex = words.vertex();
-        const auto grab           = grabbed.find(vertex);
-        const SharedPath path = grab == grabbed.end() ? path_in(held, vertex) : grab->second.path;
-        if (!path)
-          words.refuse("no hand has this vertex");
-        const Tensor<1, 3> place = words.place();
-        const double duration    = words.duration();
-        words.expect_end();
-        path->move(place, time, duration);
-        return Effect::moves;
-      }
-    if (what == "release")
-      {
-        const unsigned int vertex = words.vertex();
-        words.expect_end();
-        if (grabbed.erase(vertex) + held.erase(vertex) == 0)
-          words.refuse("no hand has this vertex");
-        return Effect::changes;
-      }
-    if (what == "take")
-      {
-        const std::string tool = words.word("the name of a tool");
-        if (has_taken(tool))
-          words.refuse("a hand has this tool already");
-        const Tensor<1, 3> place = words.place();
-        words.expect_end();
-        tools[tool] = std::make_shared<HandPath>(place, time);
-        return Effect::changes;
-      }
-    if (what == "tool")
-      {
-        const SharedPath path = path_in(tools, words.word("the name of a tool"));
-        if (!path)
-          words.refuse("no hand has taken this tool");
-        const Tensor<1, 3> place = words.place();
-        const double duration    = words.duration();
-        words.expect_end();
-        path->move(place, time, duration);
-        return Effect::moves;
-      }
-    if (what == "set")
-      {
-        const std::string all = words.rest();
-        const Override change{all};
-        if (all.find('=') == std::string::npos || all.find('/') > all.find('='))
-          words.refuse("what is right is \"set Section/Entry=value\"");
-        if (!may_be_set(change.entry()))
-          words.refuse("a session can't set " + change.entry() +
-                       "; it can set what leaves the mesh, the clamps and the output as they are");
-        set[change.entry()] = all.substr(all.find('=') + 1);
-        return Effect::changes;
-      }
-    if (what != "renew")
+    const auto known       = deeds.find(what);
+    if (known == deeds.end())
       words.refuse("there is no deed '" + what + "'");
+    const auto &[deed, effect] = known->second;
+    (this->*deed)(words, time);
     words.expect_end();
-    return Effect::changes;
+    return effect;
+  }
+
+
+  unsigned int
+  Hands::free_vertex(Words &words) const
+  {
+    const unsigned int vertex = words.vertex();
+    if (grabs(vertex) || holds(vertex))
+      words.refuse("a hand has this vertex already");
+    return vertex;
+  }
+
+
+  void
+  Hands::grab(Words &words, const double time)
+  {
+    const unsigned int vertex = free_vertex(words);
+    const auto path           = std::make_shared<HandPath>(words.place(), time);
+    grabbed[vertex]           = {ends_of(words), path};
+  }
+
+
+  void
+  Hands::hold(Words &words, const double time)
+  {
+    const unsigned int vertex = free_vertex(words);
+    held[vertex]              = std::make_shared<HandPath>(words.place(), time);
+  }
+
+
+  void
+  Hands::move(Words &words, const double time)
+  {
+    const unsigned int vertex = words.vertex();
+    const auto grab           = grabbed.find(vertex);
+    const SharedPath path     = grab == grabbed.end() ? path_in(held, vertex) : grab->second.path;
+    if (!path)
+      words.refuse("no hand has this vertex");
+    move_path(*path, words, time);
+  }
+
+
+  void
+  Hands::move_path(HandPath &path, Words &words, const double time)
+  {
+    const Tensor<1, 3> place = words.place();
+    path.move(place, time, words.duration());
+  }
+
+
+  void
+  Hands::release(Words &words, double)
+  {
+    const unsigned int vertex = words.vertex();
+    if (grabbed.erase(vertex) + held.erase(vertex) == 0)
+      words.refuse("no hand has this vertex");
+  }
+
+
+  void
+  Hands::take(Words &words, const double time)
+  {
+    const std::string tool = words.name_before(3, "the name of a tool");
+    if (has_taken(tool))
+      words.refuse("a hand has this tool already");
+    tools[tool] = std::make_shared<HandPath>(words.place(), time);
+  }
+
+
+  void
+  Hands::move_tool(Words &words, const double time)
+  {
+    const SharedPath path = path_in(tools, words.name_before(5, "the name of a tool"));
+    if (!path)
+      words.refuse("no hand has taken this tool");
+    move_path(*path, words, time);
+  }
+
+
+  void
+  Hands::set_entry(Words &words, double)
+  {
+    const Override change{words.rest()};
+    const auto equal = change.text.find('=');
+    if (equal == std::string::npos || change.text.find('/') > equal)
+      words.refuse("what is right is \"set Section/Entry=value\"");
+    const std::string entry = change.entry();
+    if (!may_be_set(entry))
+      words.refuse("a session can't set " + entry +
+                   "; it can set what leaves the mesh, the clamps and the output as they are");
+    set[entry] = change.text.substr(equal + 1);
+  }
+
+
+  void
+  Hands::renew(Words &, double)
+  {
   }
 
 

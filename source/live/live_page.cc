@@ -92,8 +92,7 @@ namespace Supple
       const std::string range = between(text, ". Range: ", "\n");
       Json choices;
       if (range.rfind("one of ", 0) == 0)
-        for (std::string choice :
-             dealii::Utilities::split_string_list(range.substr(7), ','))
+        for (std::string choice : dealii::Utilities::split_string_list(range.substr(7), ','))
           {
             if (!choice.empty() && choice.back() == '.')
               choice.pop_back();
@@ -180,8 +179,7 @@ namespace Supple
               {"dofs", problem.body.n_dofs()},
               {"processes", dealii::Utilities::MPI::n_mpi_processes(problem.mesh.communicator)},
               {"threads", problem.body.n_threads},
-              {"step",
-               parameters.time.has_variable_steps() ? Json() : Json(parameters.time.step)},
+              {"step", parameters.time.has_variable_steps() ? Json() : Json(parameters.time.step)},
               {"method", parameters.time.method_name()},
               {"history", Measurement::column_names(parameters.has_contact())},
               {"probes", session.now().probe_columns()},
@@ -302,8 +300,11 @@ namespace Supple
   std::string
   repeating_scene(const Parameters &first, const Session::Scene &scene, const std::string &folder)
   {
-    const std::string base = first.file.folder();
-    std::vector<Override> changes = {{"Live/Motion=" + motion_file_name}, {"Output/Folder="}};
+    const std::string base              = first.file.folder();
+    const std::vector<Override> changes = {{"Live/Motion=" + motion_file_name},
+                                           {"Output/Folder="},
+                                           {"Time/Estimate error=false"},
+                                           {"Space/Second mesh=none"}};
     std::istringstream lines(scene(changes).as_used);
     std::ostringstream text;
     text << "# What was done in a live session, once more: supple " << repeated_scene_name << "\n";
@@ -316,8 +317,7 @@ namespace Supple
           section = plain.substr(11);
         const bool names_file = plain.rfind("set File ", 0) == 0 && equal != std::string::npos &&
                                 (section == "Mesh" || section.rfind("Tool ", 0) == 0);
-        const std::string value =
-          names_file ? dealii::Utilities::trim(line.substr(equal + 1)) : "";
+        const std::string value = names_file ? dealii::Utilities::trim(line.substr(equal + 1)) : "";
         if (!value.empty())
           line = line.substr(0, equal + 1) + " " + from_folder(value, base, folder);
         text << line << '\n';

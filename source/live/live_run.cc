@@ -7,6 +7,7 @@
 #include <supple/base/text.h>
 #include <supple/forces/contact.h>
 #include <supple/live/live_page.h>
+#include <supple/live/words.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -17,7 +18,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
-#include <sstream>
 
 extern char **environ;
 
@@ -45,10 +45,27 @@ namespace Supple
 
 
     Parameters
-    from_its_start(Parameters scene)
+    from_its_start(const Parameters &scene)
     {
-      scene.checkpoint.resume = false;
-      return scene;
+      Parameters begun        = alone(scene);
+      begun.checkpoint.resume = false;
+      return begun;
+    }
+
+
+    /** That other runs are left out, if the scene asks for them; empty if it does not. */
+    std::string
+    what_is_left_out(const Parameters &scene)
+    {
+      std::string entries;
+      if (scene.time.estimate_error)
+        entries = scene.origin("Time/Estimate error");
+      if (scene.space.second_mesh != SpaceParameters::SecondMesh::none)
+        entries += (entries.empty() ? "" : " and ") + scene.origin("Space/Second mesh");
+      return entries.empty() ? ""
+                             : entries +
+                                 ": left out, for other runs know nothing of hands; the page "
+                                 "runs all again with half the step.";
     }
 
 
@@ -99,6 +116,9 @@ namespace Supple
     , talks(root && !quiet)
     , watcher(std::make_unique<Watcher>())
   {
+    const std::string left_out = what_is_left_out(scene_at_start);
+    if (talks && !left_out.empty())
+      std::cout << left_out << std::endl;
     open_session();
   }
 
@@ -116,7 +136,7 @@ namespace Supple
     on_first_process(communicator, [this] {
       write_whole_file(folder + "/" + repeated_scene_name, repeating_scene(first, scene, folder));
     });
-    surface = std::make_unique<BodySurface>(session->now().present().body);
+    surface                      = std::make_unique<BodySurface>(session->now().present().body);
     const Contact *const contact = session->now().present().forces.contact();
     of_tools.assign(contact ? contact->all_tools().size() : 0, {});
     history.clear();
@@ -194,10 +214,10 @@ namespace Supple
     const auto due   = pace.due(session->now().time());
     const auto later = Pace::Clock::now();
     orders.step      = single_steps > 0 || (running && due <= later);
-    orders.requests = mailbox.take_requests();
-    orders.arrival  = mailbox.take_arrival();
-    orders.frame    = later - last_frame >= between_frames && mailbox.wants_frame();
-    orders.rows     = later - last_rows >= between_rows;
+    orders.requests  = mailbox.take_requests();
+    orders.arrival   = mailbox.take_arrival();
+    orders.frame     = later - last_frame >= between_frames && mailbox.wants_frame();
+    orders.rows      = later - last_rows >= between_rows;
     if (orders.frame)
       last_frame = later;
     if (orders.rows)
@@ -248,31 +268,19 @@ namespace Supple
   void
   LiveRun::act(const std::string &command)
   {
-    std::istringstream words(command);
-    std::string what, whom;
-    words >> what >> whom;
-    const auto number = [&](const std::string &name) {
-      std::string text;
-      char *end          = nullptr;
-      const double value = words >> text ? std::strtod(text.c_str(), &end) : NAN;
-      if (!std::isfinite(value) || *end != '\0')
-        throw InputError("\"" + command + "\": " + name + " must be a finite number.");
-      return value;
-    };
-    const auto place = [&] {
-      Tensor<1, 3> place;
-      for (unsigned int i = 0; i < 3; ++i)
-        place[i] = number(std::string("coordinate ") + "xyz"[i]);
-      return place;
-    };
-    const auto vertex = [&] {
-      if (whom.empty() || whom.size() > 9 ||
-          whom.find_first_not_of("0123456789") != std::string::npos)
-        throw InputError("\"" + command + "\": the index of a vertex must be a whole number.");
-      return static_cast<unsigned int>(std::stoul(whom));
-    };
+    Words words(command);
+    const std::string what = words.word("a command");
+    changed                = true;
+    if (what == "release" || what == "set")
+      session->act(command);
+    else if (!control(what, words) && !move_by_hand(what, words))
+      words.refuse("there is no such command");
+  }
 
-    changed = true;
+
+  bool
+  LiveRun::control(const std::string &what, Words &words)
+  {
     if (what == "run" || what == "pause")
       {
         running = what == "run";
@@ -285,65 +293,70 @@ namespace Supple
       }
     else if (what == "speed")
       {
-        std::istringstream again_from_start(whom);
-        words.swap(again_from_start);
-        const double wanted = number("a speed");
+        const double wanted = words.number("a speed");
         if (wanted < 0.)
-          throw InputError("\"" + command + "\": a speed is 0, as fast as it can, or more.");
+          words.refuse("a speed is 0, as fast as it can, or more");
         speed = wanted;
         pace.start(session->now().time(), speed);
       }
     else if (what == "reset")
       {
-        running = false;
+        running      = false;
+        single_steps = 0;
         again.reset();
         ++session_number;
         open_session();
       }
     else if (what == "again")
       start_again();
-    else if (what == "stop" && whom == "again")
+    else if (what == "stop")
       {
+        words.expect("again");
         if (again)
           end_again("failed", "It was stopped.");
       }
     else if (what == "quit")
       ending = true;
-    else if (what == "grab")
-      {
-        const unsigned int node      = vertex();
-        const Tensor<1, 3> to        = place();
-        const double radius          = number("a radius");
-        const double stiffness       = number("a stiffness");
-        if (radius < 0. || stiffness < 0.)
-          throw InputError("\"" + command + "\": neither radius nor stiffness can be below 0.");
-        session->act(session->grab(node, radius, stiffness));
-        session->act(move_to("move " + whom, to));
-      }
-    else if (what == "hold")
-      {
-        const unsigned int node = vertex();
-        const Tensor<1, 3> to   = place();
-        session->act(session->hold(node));
-        session->act(move_to("move " + whom, to));
-      }
-    else if (what == "move")
-      {
-        session->act(move_to("move " + whom, place()));
-        changed = false; // which frames and rows tell
-      }
-    else if (what == "tool")
-      {
-        const Tensor<1, 3> to = place();
-        if (const std::string take = session->take(whom); !take.empty())
-          session->act(take);
-        session->act(move_to("tool " + whom, to));
-        changed = false;
-      }
-    else if (what == "release" || what == "set")
-      session->act(command);
     else
-      throw InputError("\"" + command + "\": there is no such command.");
+      return false;
+    words.expect_end();
+    return true;
+  }
+
+
+  bool
+  LiveRun::move_by_hand(const std::string &what, Words &words)
+  {
+    if (what == "tool")
+      {
+        const std::string tool   = words.name_before(3, "the name of a tool");
+        const Tensor<1, 3> place = words.place();
+        words.expect_end();
+        if (const std::string take = session->take(tool); !take.empty())
+          session->act(take);
+        session->act(move_to("tool " + tool, place));
+        changed = false; // frames and rows tell it
+        return true;
+      }
+    if (what != "grab" && what != "hold" && what != "move")
+      return false;
+    const unsigned int vertex = words.vertex();
+    const Tensor<1, 3> place  = words.place();
+    if (what == "grab")
+      {
+        const double radius = words.number("a radius"), stiffness = words.number("a stiffness");
+        if (radius < 0. || stiffness < 0.)
+          words.refuse("neither radius nor stiffness can be below 0");
+        words.expect_end();
+        session->act(session->grab(vertex, radius, stiffness));
+      }
+    else
+      words.expect_end();
+    if (what == "hold")
+      session->act(session->hold(vertex));
+    session->act(move_to("move " + std::to_string(vertex), place));
+    changed = what != "move"; // frames and rows tell it
+    return true;
   }
 
 
@@ -393,8 +406,7 @@ namespace Supple
         changed      = true;
         tell({{"kind", "failed"},
               {"message",
-               "The step after " + digits(session->now().time(), 6) + " s failed: " +
-                 error.what() +
+               "The step after " + digits(session->now().time(), 6) + " s failed: " + error.what() +
                  ". What was done for it is undone; the session waits in the state before."}});
       }
   }
@@ -425,7 +437,7 @@ namespace Supple
     if (end == 0.)
       throw InputError("again: nothing has happened yet.");
     deeds.push_back({session->now().measurement().step, end, end_of_motion, ""});
-    Parameters quiet    = first;
+    Parameters quiet     = first;
     quiet.space.estimate = SpaceParameters::Estimate::never;
     again = std::make_unique<Replay>(quiet, scene, deeds, true, "", true, 0.5, communicator);
     again->begin();
@@ -560,9 +572,9 @@ namespace Supple
   void
   LiveRun::show_state()
   {
-    changed                      = false;
+    changed                                 = false;
     const std::vector<std::string> warnings = session->now().warnings();
-    const Parameters &parameters = session->now().present().parameters;
+    const Parameters &parameters            = session->now().present().parameters;
     if (!root)
       return;
     Json held = Json::array();
@@ -576,8 +588,7 @@ namespace Supple
           {"session", session_number},
           {"entries", values_of_entries(parameters)},
           {"method", parameters.time.method_name()},
-          {"step_size",
-           parameters.time.has_variable_steps() ? Json() : Json(parameters.time.step)},
+          {"step_size", parameters.time.has_variable_steps() ? Json() : Json(parameters.time.step)},
           {"held", held},
           {"warnings", warnings}});
   }

@@ -121,9 +121,8 @@ namespace Supple
       beast::get_lowest_layer(stream).expires_never();
       Error ignored;
       beast::get_lowest_layer(stream).socket().set_option(tcp::no_delay(true), ignored);
-      stream.set_option(websocket::stream_base::timeout{std::chrono::seconds(30),
-                                                        std::chrono::seconds(30),
-                                                        true});
+      stream.set_option(
+        websocket::stream_base::timeout{std::chrono::seconds(30), std::chrono::seconds(30), true});
       const auto kept = std::make_shared<HttpRequest>(std::move(request));
       stream.async_accept(*kept, [self = shared_from_this(), kept](const Error &error) {
         if (error)
@@ -163,8 +162,8 @@ namespace Supple
     {
       if (!open || std::exchange(closing, true))
         return;
-      stream.async_close({code, reason.substr(0, 120)}, [self = shared_from_this()](const Error &) {
-      });
+      stream.async_close({code, reason.substr(0, 120)},
+                         [self = shared_from_this()](const Error &) {});
     }
 
     bool
@@ -322,8 +321,8 @@ namespace Supple
         }
       catch (const boost::system::system_error &error)
         {
-          throw InputError(std::string("--live: no port of 127.0.0.1 can be had: ") +
-                           error.what() + ".");
+          throw InputError(std::string("--live: no port of 127.0.0.1 can be had: ") + error.what() +
+                           ".");
         }
       content.page   = with_connection(std::move(content.page), host);
       mailbox.notify = [this] {
@@ -411,10 +410,9 @@ namespace Supple
     answer(const HttpRequest &request) const
     {
       const std::string target(request.target());
-      const auto question    = target.find('?');
-      const std::string path = target.substr(0, question);
-      const std::string query =
-        question == std::string::npos ? "" : target.substr(question + 1);
+      const auto question     = target.find('?');
+      const std::string path  = target.substr(0, question);
+      const std::string query = question == std::string::npos ? "" : target.substr(question + 1);
       const std::string named = "token=";
       const auto forbid       = [&](const std::string &why) {
         return refusal(request, http::status::forbidden, why);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <utility>
 
 namespace Supple
 {
@@ -23,6 +24,14 @@ namespace Supple
     , talks(!quiet && dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
     , of_deeds(first, scene, folder, quiet, finer, communicator)
   {
+    for (const auto &[asked, entry] :
+         {std::make_pair(first.time.estimate_error, "Time/Estimate error"),
+          std::make_pair(first.space.second_mesh != SpaceParameters::SecondMesh::none,
+                         "Space/Second mesh")})
+      if (asked)
+        throw InputError(first.origin(entry) +
+                         ": the other run would know nothing of hands. Repeat the motion with half "
+                         "the step, Live/By = time, and compare.");
     of_deeds.check(deeds);
     if (deeds.empty())
       throw InputError(first.origin("Live/Motion") + ": nothing is done in this file.");

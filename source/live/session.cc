@@ -25,8 +25,8 @@ namespace Supple
     constexpr const char *grips_file = "hands.csv";
 
     /** Without what can't go along with hands. @throws InputError */
-    Parameters
-    for_session(Parameters scene)
+    void
+    require_session(const Parameters &scene)
     {
       if (scene.time.problem == TimeParameters::Problem::stationary)
         throw InputError(scene.origin("Time/Problem") +
@@ -36,10 +36,16 @@ namespace Supple
         throw InputError(scene.origin("Checkpoint/Minutes") +
                          ": what is done by hand could not be repeated to the same digits where "
                          "checkpoints come by the clock. Take Checkpoint/Every.");
-      scene.time.open_ended     = true;
-      scene.time.estimate_error = false; // the second run would know nothing of hands
-      scene.space.second_mesh   = SpaceParameters::SecondMesh::none;
-      return scene;
+    }
+
+
+    Parameters
+    for_session(const Parameters &scene)
+    {
+      require_session(scene);
+      Parameters session      = alone(scene);
+      session.time.open_ended = true;
+      return session;
     }
 
 
@@ -68,9 +74,19 @@ namespace Supple
     std::string
     in_words(const Tensor<1, 3> &place)
     {
-      return digits(place[0], all_digits) + " " + digits(place[1], all_digits) + " " + digits(place[2], all_digits);
+      return digits(place[0], all_digits) + " " + digits(place[1], all_digits) + " " +
+             digits(place[2], all_digits);
     }
   } // namespace
+
+
+  Parameters
+  alone(Parameters scene)
+  {
+    scene.time.estimate_error = false;
+    scene.space.second_mesh   = SpaceParameters::SecondMesh::none;
+    return scene;
+  }
 
 
   std::vector<std::string>
@@ -105,7 +121,10 @@ namespace Supple
     , finer(finer)
     , communicator(communicator)
   {
-    simulation = std::make_unique<Simulation>(present_scene(), folder, quiet, communicator);
+    simulation       = std::make_unique<Simulation>(present_scene(), folder, quiet, communicator);
+    const Body &body = simulation->present().body;
+    for (unsigned int node = 0; node < body.n_owned; ++node)
+      own_nodes.emplace(body.serial_vertex[node], node);
   }
 
 
@@ -203,7 +222,7 @@ namespace Supple
   void
   Session::require_vertex(const unsigned int vertex) const
   {
-    const Body &body = simulation->present().body;
+    const Body &body  = simulation->present().body;
     unsigned int here = 0;
     for (unsigned int node = 0; node < body.n_owned; ++node)
       here += body.serial_vertex[node] == vertex;
@@ -249,7 +268,7 @@ namespace Supple
   void
   Session::renew()
   {
-    auto next = std::make_unique<Simulation>(present_scene(),
+    auto next                       = std::make_unique<Simulation>(present_scene(),
                                              simulation->present().shared_mesh,
                                              folder,
                                              true);
@@ -365,12 +384,10 @@ namespace Supple
   Tensor<1, 3>
   Session::value_at(const unsigned int vertex, const Vector &values) const
   {
-    const Body &body = now().present().body;
     Tensor<1, 3> value;
-    for (unsigned int node = 0; node < body.n_owned; ++node)
-      if (body.serial_vertex[node] == vertex)
-        for (unsigned int i = 0; i < 3; ++i)
-          value[i] = values.local_element(3 * node + i);
+    if (const auto own = own_nodes.find(vertex); own != own_nodes.end())
+      for (unsigned int i = 0; i < 3; ++i)
+        value[i] = values.local_element(3 * own->second + i);
     return Utilities::MPI::sum(value, communicator);
   }
 
@@ -386,24 +403,59 @@ namespace Supple
   std::vector<Session::Grip>
   Session::grips() const
   {
+    const Body &body    = now().present().body;
+    const Vector &u     = now().current_state().displacement;
+    const double time   = now().time();
+    const auto place_at = [&](const unsigned int node) {
+      Tensor<1, 3> place = body.position(node);
+      for (unsigned int i = 0; i < 3; ++i)
+        place[i] += u.local_element(3 * node + i);
+      return place;
+    };
+
+    // What this process knows of places and forces, six numbers each.
     std::vector<Grip> list;
+    std::vector<double> here;
+    const auto add = [&](const Grip &grip) {
+      for (const auto *vector : {&grip.place, &grip.force})
+        here.insert(here.end(), vector->begin_raw(), vector->end_raw());
+      list.push_back(grip);
+    };
     for (const auto &[vertex, grab] : hands.grabs())
       {
-        Grip grip{vertex, false, grab.path->at(now().time()), place_of(vertex), {}, 0.};
+        Grip grip{vertex, false, grab.path->at(time), {}, {}, 0.};
+        if (const auto own = own_nodes.find(vertex); own != own_nodes.end())
+          grip.place = place_at(own->second);
         for (const Pull::End &end : grab.ends)
           {
-            grip.force += end.stiffness * (grip.target + end.offset - place_of(end.vertex));
             grip.stiffness += end.stiffness;
+            if (const auto own = own_nodes.find(end.vertex); own != own_nodes.end())
+              grip.force += end.stiffness * (grip.target + end.offset - place_at(own->second));
           }
-        list.push_back(grip);
+        add(grip);
       }
     for (const auto &[vertex, path] : hands.holds())
-      list.push_back({vertex,
-                      true,
-                      path->at(now().time()),
-                      place_of(vertex),
-                      value_at(vertex, now().reactions()),
-                      0.});
+      {
+        Grip grip{vertex, true, path->at(time), {}, {}, 0.};
+        if (const auto own = own_nodes.find(vertex); own != own_nodes.end())
+          {
+            grip.place = place_at(own->second);
+            for (unsigned int i = 0; i < 3; ++i)
+              grip.force[i] = now().reactions().local_element(3 * own->second + i);
+          }
+        add(grip);
+      }
+    if (list.empty())
+      return list;
+
+    std::vector<double> all(here.size());
+    Utilities::MPI::sum(here, communicator, all);
+    for (std::size_t g = 0; g < list.size(); ++g)
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          list[g].place[i] = all[6 * g + i];
+          list[g].force[i] = all[6 * g + 3 + i];
+        }
     return list;
   }
 
@@ -437,8 +489,9 @@ namespace Supple
           offset[i] += now().current_state().displacement.local_element(3 * node + i);
         if (body.serial_vertex[node] == vertex)
           offset = 0.;
-        own.insert(own.end(),
-                   {double(body.serial_vertex[node]), k * part * part, offset[0], offset[1], offset[2]});
+        own.insert(
+          own.end(),
+          {double(body.serial_vertex[node]), k * part * part, offset[0], offset[1], offset[2]});
       }
     std::vector<std::array<double, 5>> ends;
     for (const std::vector<double> &of_process : Utilities::MPI::all_gather(communicator, own))

@@ -208,7 +208,7 @@ namespace Supple
         for (unsigned int node = 0; node < body.n_local; ++node)
           if (body.serial_vertex[node] == hand.vertex && !body.is_held_by_nature(3 * node + i))
             {
-              held_twice = held[3 * node + i] ? 1 : 0;
+              held_twice         = held[3 * node + i] ? 1 : 0;
               held[3 * node + i] = true;
               if (node < body.n_owned)
                 motions.back().nodes.push_back(node);
@@ -258,8 +258,8 @@ namespace Supple
   {
     const double interval = 1e-4 * (end - start), round_off = 1e-6 * body.mesh.diameter();
     return std::any_of(motions.begin(), motions.end(), [&](const Motion &motion) {
-      const auto &u    = motion.displacement;
-      const double way = std::abs(u(motion.sample, end) - u(motion.sample, start));
+      const auto &u       = motion.displacement;
+      const double way    = std::abs(u(motion.sample, end) - u(motion.sample, start));
       const double speeds = std::abs(rate(u, motion.sample, start, interval)) +
                             std::abs(rate(u, motion.sample, end, -interval));
       return way > 2. * (end - start) * speeds + round_off;

@@ -112,9 +112,9 @@ namespace Supple
 
   void
   BodySurface::sort(std::vector<unsigned int> vertices,
-                     const std::vector<float> &positions,
-                     const std::vector<unsigned int> &corners,
-                     const std::vector<unsigned int> &unsorted_materials)
+                    const std::vector<float> &positions,
+                    const std::vector<unsigned int> &corners,
+                    const std::vector<unsigned int> &unsorted_materials)
   {
     vertex_place = places_when_sorted(vertices);
     rest.resize(positions.size());

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <numeric>
 
 namespace Supple
 {
@@ -28,12 +27,43 @@ namespace Supple
   } // namespace
 
 
-  Film::Film(const Body &body, const std::string &folder, const bool with_errors)
+  namespace
+  {
+    const std::string of_contact = "contact_pressure", of_errors = "error_in_space";
+
+
+    std::vector<std::string>
+    names_of_fields(const bool with_contact, const bool with_errors)
+    {
+      std::vector<std::string> names = {"volume_ratio", "von_mises_stress"};
+      if (with_contact)
+        names.push_back(of_contact);
+      if (with_errors)
+        names.push_back(of_errors);
+      return names;
+    }
+
+
+    std::string
+    joined(const std::vector<std::string> &names)
+    {
+      std::string text;
+      for (const std::string &name : names)
+        text += " " + name;
+      return text;
+    }
+  } // namespace
+
+
+  Film::Film(const Body &body,
+             const std::string &folder,
+             const bool with_contact,
+             const bool with_errors)
     : surface(body)
     , communicator(body.mesh.communicator)
     , file(folder + "/" + file_name())
-    , n_fields(with_errors ? 3 : 2)
-    , magic("supple frames of " + std::to_string(n_fields) + " fields\n")
+    , fields(names_of_fields(with_contact, with_errors))
+    , magic("supple frames of" + joined(fields) + "\n")
     , root(Utilities::MPI::this_mpi_process(body.mesh.communicator) == 0)
   {
   }
@@ -56,7 +86,8 @@ namespace Supple
   std::size_t
   Film::frame_size() const
   {
-    return 2 * sizeof(double) + (surface.rest.size() + n_fields * surface.triangles.size()) * sizeof(float);
+    return 2 * sizeof(double) +
+           (surface.rest.size() + fields.size() * surface.triangles.size()) * sizeof(float);
   }
 
 
@@ -100,18 +131,37 @@ namespace Supple
 
 
   std::vector<float>
+  Film::own_values(const std::string &name, const Drawing &drawing) const
+  {
+    std::vector<float> values;
+    values.reserve(surface.own_triangles.size());
+    if (name == of_contact)
+      {
+        const GhostValues pressure(*drawing.contact_pressure);
+        for (const auto &[nodes, cell_index, material] : surface.own_triangles)
+          values.push_back((pressure.data()[3 * nodes[0]] + pressure.data()[3 * nodes[1]] +
+                            pressure.data()[3 * nodes[2]]) /
+                           3.);
+        return values;
+      }
+    const std::vector<float> *of_cells = drawing.error_in_space;
+    for (const auto &[name_of_cells, values_of_cells] : drawing.cells.named())
+      if (name == name_of_cells)
+        of_cells = values_of_cells;
+    for (const BodySurface::Triangle &triangle : surface.own_triangles)
+      values.push_back(of_cells ? (*of_cells)[triangle.cell_index] : 0.f);
+    return values;
+  }
+
+
+  std::vector<float>
   Film::gather_fields(const Drawing &drawing) const
   {
-    const std::array<const std::vector<float> *, 3> fields = {
-      {&drawing.cells.volume_ratio, &drawing.cells.von_mises_stress, drawing.error_in_space}};
     std::vector<float> all;
-    for (std::size_t f = 0; f < n_fields; ++f)
+    for (std::size_t f = 0; f < fields.size(); ++f)
       {
-        std::vector<float> here;
-        here.reserve(surface.own_triangles.size());
-        for (const BodySurface::Triangle &triangle : surface.own_triangles)
-          here.push_back(fields[f] ? (*fields[f])[triangle.cell_index] : 0.f);
-        here = gathered_on_first(here, communicator);
+        const std::vector<float> here =
+          gathered_on_first(own_values(fields[f], drawing), communicator);
         all.resize(all.size() + surface.triangle_place.size());
         for (std::size_t i = 0; i < surface.triangle_place.size(); ++i)
           all[f * surface.triangle_place.size() + surface.triangle_place[i]] = here[i];
@@ -146,7 +196,7 @@ namespace Supple
   {
     FilmFrame frame;
     frame.displacement.resize(surface.rest.size());
-    frame.cells.resize(n_fields * surface.triangles.size());
+    frame.cells.resize(fields.size() * surface.triangles.size());
     stream.seekg(head_size() + number * frame_size());
     stream.read(reinterpret_cast<char *>(&frame.time), sizeof(double));
     stream.read(reinterpret_cast<char *>(&frame.step), sizeof(double));
@@ -173,11 +223,12 @@ namespace Supple
   Film::pack(const std::size_t limit) const
   {
     constexpr std::size_t largest_ratio = 4; // of plain bytes to packed ones
-    PackedFilm packed(surface.rest, surface.triangles, surface.materials, n_fields);
+    PackedFilm packed(surface.rest, surface.triangles, surface.materials, fields);
     packed.n_written        = n_frames;
     const std::size_t begin = packed.bytes.size();
     const std::size_t room  = limit > begin ? limit - begin : 0;
-    const std::size_t size  = (surface.rest.size() + n_fields * surface.triangles.size()) * sizeof(std::uint16_t);
+    const std::size_t size =
+      (surface.rest.size() + fields.size() * surface.triangles.size()) * sizeof(std::uint16_t);
     for (std::size_t n_taken = std::min<std::size_t>(n_frames, largest_ratio * room / size);;)
       {
         n_taken = std::max<std::size_t>(n_taken, std::min(n_frames, 2u));

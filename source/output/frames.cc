@@ -34,7 +34,7 @@ namespace Supple
   {
     body.initialize(last_displacement);
     if (parameters.report)
-      film = std::make_unique<Film>(body, folder, of_all_frames);
+      film = std::make_unique<Film>(body, folder, forces.contact() != nullptr, of_all_frames);
   }
 
 

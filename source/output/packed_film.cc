@@ -71,10 +71,11 @@ namespace Supple
   PackedFilm::PackedFilm(const std::vector<float> &rest,
                          const std::vector<std::array<unsigned int, 3>> &triangles,
                          const std::vector<unsigned int> &materials_of_triangles,
-                         const std::size_t n_fields)
-    : n_vertices(rest.size() / 3)
+                         const std::vector<std::string> &fields)
+    : fields(fields)
+    , n_vertices(rest.size() / 3)
     , n_triangles(triangles.size())
-    , ranges(n_fields)
+    , ranges(fields.size())
   {
     const std::set<unsigned int> different(materials_of_triangles.begin(),
                                            materials_of_triangles.end());
@@ -149,8 +150,6 @@ namespace Supple
   nlohmann::ordered_json
   PackedFilm::description() const
   {
-    const std::array<const char *, 3> names = {
-      {"volume_ratio", "von_mises_stress", "error_in_space"}};
     nlohmann::ordered_json json = {{"vertices", n_vertices},
                                    {"triangles", n_triangles},
                                    {"frames_written", n_written},
@@ -158,7 +157,7 @@ namespace Supple
                                    {"steps", steps},
                                    {"largest_displacement", largest_displacement}};
     for (std::size_t f = 0; f < ranges.size(); ++f)
-      json[names[f]] = ranges[f];
+      json[fields[f]] = ranges[f];
     json["materials"] = materials;
     return json;
   }

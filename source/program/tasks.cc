@@ -128,8 +128,9 @@ namespace Supple
         throw InputError(live + "a session runs a single scene, neither a study nor an aim.");
       const Parameters scene = scene_of(line, communicator);
       if (!scene.live.motion.empty())
-        throw InputError(live + "this scene is a session that has ended. Without --live it is "
-                                "run once more.");
+        throw InputError(live +
+                         "this scene is a session that has ended. Without --live it is "
+                         "run once more.");
       const std::string folder =
         line.output.empty() ? scene.output_folder() + "-live" : line.output;
       LiveRun(scene, reader_of(line), folder, line.quiet, communicator).run();

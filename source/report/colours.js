@@ -11,6 +11,7 @@ export const FIELDS = {
   displacement: {title: 'displacement', unit: 'm', map: RISING},
   volume_ratio: {title: 'volume ratio', unit: '', map: AROUND, middle: 1},
   von_mises_stress: {title: 'von Mises stress', unit: 'Pa', map: RISING},
+  contact_pressure: {title: 'contact pressure', unit: 'Pa', map: RISING},
   error_in_space: {title: 'error in space', unit: '', map: RISING},
   material: {title: 'material id', unit: '', map: MATERIALS},
 };

@@ -185,8 +185,7 @@ namespace Supple
   std::string
   full_name(const Parameters &parameters)
   {
-    const std::string folder =
-      std::filesystem::path(parameters.file.folder()).filename().string();
+    const std::string folder = std::filesystem::path(parameters.file.folder()).filename().string();
     return (folder.empty() || folder[0] == '.' ? "" : folder + "/") + parameters.scene_name;
   }
 

@@ -20,8 +20,8 @@ async function unpack(stream, length) {
   return values;
 }
 
-/** Fields of the triangles, in the order in which a frame has them; the last one is not in all pages. */
-const FIELDS = ['volume_ratio', 'von_mises_stress', 'error_in_space'];
+/** Fields of the triangles, in the order in which a frame has them; the last two are not in all pages. */
+const FIELDS = ['volume_ratio', 'von_mises_stress', 'contact_pressure', 'error_in_space'];
 
 export class Surface {
   /** @throws where the browser can't unpack the frames */

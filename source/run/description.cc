@@ -298,6 +298,8 @@ namespace Supple
                        " degrees within a step: friction and work see the straight way between "
                        "both ends alone. Take steps with less than " +
                        digits(many, 1) + " degrees.");
+    if (!trouble_of_friction(*contact).empty())
+      list.push_back(trouble_of_friction(*contact));
     const TimeMethod method = problem.parameters.time.method;
     const bool is_free =
       problem.constraints.n_held == 0 || !problem.constraints.free_pieces.empty();
@@ -308,6 +310,40 @@ namespace Supple
         "the step, for backward Euler damps what is faster. Halve Time/Step, or take "
         "Time/Method = trbdf2.");
     return list;
+  }
+
+
+  /** Whether Newton's method finds a step or just not is a matter of round-off, and what sticks and
+   * what slips then is another state of another step. */
+  std::string
+  Description::trouble_of_friction(const Contact &contact) const
+  {
+    constexpr double fine = 100.; // times the slip resolution
+
+    const Contact::Trouble &trouble = contact.trouble();
+    const unsigned int limit        = problem.parameters.time.newton_limit;
+    if (trouble.n_failed == 0 && trouble.most_corrections <= limit / 2)
+      return {};
+    std::string words = "Friction makes steps hard to find: ";
+    if (trouble.n_failed > 0)
+      words += std::to_string(trouble.n_failed) +
+               (trouble.n_failed == 1 ? " was not found" : " were not found") +
+               " and had to be done in shorter ones";
+    else
+      words += "one took " + std::to_string(trouble.most_corrections) + " of Newton's " +
+               std::to_string(limit) + " iterations";
+    words +=
+      ". Another number of processes, which rounds in another way, may give another motion "
+      "from there on. ";
+    if (trouble.fastest_slip > fine * contact.slip_resolution())
+      words += "Surfaces slide with up to " + digits(trouble.fastest_slip, 2) +
+               " m/s, and Contact/Slip resolution is " + digits(contact.slip_resolution(), 2) +
+               " m/s: a hundredth of the speed will do, " + digits(trouble.fastest_slip / fine, 2) +
+               " m/s; or take shorter steps.";
+    else
+      words += "Take shorter steps, or a larger Contact/Slip resolution than " +
+               digits(contact.slip_resolution(), 2) + " m/s.";
+    return words;
   }
 
 

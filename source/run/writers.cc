@@ -99,7 +99,21 @@ namespace Supple
   std::vector<std::string>
   ToolTables::columns()
   {
-    return {"step", "time", "x", "y", "z", "fx", "fy", "fz", "tx", "ty", "tz", "work", "depth", "min_gap", "area"};
+    return {"step",
+            "time",
+            "x",
+            "y",
+            "z",
+            "fx",
+            "fy",
+            "fz",
+            "tx",
+            "ty",
+            "tz",
+            "work",
+            "depth",
+            "min_gap",
+            "area"};
   }
 
 

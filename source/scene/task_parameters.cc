@@ -94,7 +94,12 @@ namespace Supple
     std::error_code unreadable; // a name that is too long is no exception
     if (!std::filesystem::is_regular_file(path(scene), unreadable))
       throw InputError(place("Scene") + ": there is no such parameter file: " + path(scene) + ".");
-    return Supple::read_scene(path(scene), list);
+    Parameters parameters = Supple::read_scene(path(scene), list);
+    if (!parameters.live.motion.empty())
+      throw InputError(parameters.origin("Live/Motion") +
+                       ": a scene that repeats what was done by hand is run by itself; no other "
+                       "file can ask for its runs.");
+    return parameters;
   }
 
 

@@ -6,8 +6,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <string>
 
 namespace Supple
@@ -26,7 +24,25 @@ namespace Supple
   void
   ContactNewton::solve(ImplicitStage &stage)
   {
-    constexpr unsigned int patience = 3; // with round-off in forces that hardly act any more
+    const unsigned long n_before = n_iterations;
+    try
+      {
+        find(stage);
+      }
+    catch (const ComputationError &)
+      {
+        contact.note_failed();
+        throw;
+      }
+    contact.note_found(model.configuration, n_iterations - n_before);
+  }
+
+
+  void
+  ContactNewton::find(ImplicitStage &stage)
+  {
+    constexpr unsigned int patience = 3;    // with round-off in forces that hardly act any more
+    constexpr double hardly         = 1e-3; // a part of the way
 
     const Configuration &configuration = model.configuration;
     unsigned int n_small               = 0; // corrections
@@ -43,8 +59,10 @@ namespace Supple
         ++n_iterations;
 
         const double safe = contact.safe_part(configuration, way, 1.);
-        const bool small  = arrived && safe == 1. && stage.is_done(correction);
-        const bool last   = small && (!touched || n_small == patience || is_balanced(stage));
+        if (!arrived && safe < hardly)
+          contact.require_room_between(configuration, model.constraints);
+        const bool small = arrived && safe == 1. && stage.is_done(correction);
+        const bool last  = small && (!touched || n_small == patience || is_balanced(stage));
         n_small += small;
         const bool free = safe == 1. && !touched && stage.is_linear();
         if (!arrived || last || free)
@@ -221,22 +239,7 @@ namespace Supple
   std::string
   ContactNewton::what_is_near() const
   {
-    std::string nearest;
-    double least                          = std::numeric_limits<double>::max();
-    const std::vector<ToolReport> reports = contact.reports(model.configuration);
-    for (unsigned int t = 0; t < reports.size(); ++t)
-      if (reports[t].gap < least)
-        {
-          nearest = "the tool " + contact.all_tools()[t].parameters.name;
-          least   = reports[t].gap;
-        }
-    if (const std::optional<double> own = contact.own_gap(model.configuration); own && *own < least)
-      {
-        nearest = "itself or another body";
-        least   = *own;
-      }
-    return nearest.empty()
-             ? ""
-             : "; the least gap is that to " + nearest + ", " + digits(least, 2) + " m";
+    const std::string words = contact.nearest_in_words(model.configuration);
+    return words.empty() ? "" : "; " + words;
   }
 } // namespace Supple

@@ -7,6 +7,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import contact_solutions
 import runner
 import vtu
 
@@ -80,6 +81,40 @@ def hertz():
         for row in simulate(HERTZ, settings).table("tool_sphere.csv")[1:]:
             exact = 36.630037 * row["time"] ** 1.5
             runner.check(abs(-4 * row["fz"] / exact - 1) < limit, f"{settings}: {-4 * row['fz']} N instead of {exact} N at {row['time']}")
+    # The pressure, also on the edges and the corner of the quarter, where it is shared with faces that touch nothing; on two processes too.
+    for settings, limits in (({}, (0.06, 0.15)), ({"Mesh/Order": 1, "Mesh/Box cubes": "16, 16, 16"}, (0.06, 0.09))):
+        frames = []
+        for ranks in (1, 2):
+            pressed = runner.simulate(HERTZ, {"Output/Report": "false", "Time/Steps": 1, "Solver/Tolerance": 1e-10, **settings}, ranks=ranks)
+            frames.append([vtu.Frame(file) for file in sorted((pressed.folder / "solution").glob("frame_0001*.vtu"))])
+        middle, worst = contact_solutions.errors_of_pressure(frames[0][0])
+        runner.check(abs(middle) < limits[0] and worst < limits[1], f"{settings}: the pressure is {middle} off in the middle, {worst} at most")
+        one, two = ({tuple(round(x, 6) for x in place): p for frame in list_of for place, p in zip(frame.points, frame.of_points["contact_pressure"])}
+                    for list_of in frames)
+        differs = max(abs(one[place] - two[place]) for place in one) / contact_solutions.HERTZ_PRESSURE
+        runner.check(len(one) == len(two) and differs < 1e-4, f"{settings}: on two processes pressures differ by {differs}")
+
+
+def mindlin():
+    """Cattaneo and Mindlin: a sphere that is moved sideways sticks in the middle and slips around it; the force and the radius are known."""
+    pushed = simulate(CONTACT / "mindlin.prm", {"Output/Frames": "every"})
+    states = [vtu.Frame(file) for file in sorted((pushed.folder / "solution").glob("*.vtu"))]
+    for row, state in list(zip(pushed.table("tool_sphere.csv"), states))[2:]:
+        load, force = contact_solutions.mindlin_load(row["time"]), 2 * row["fx"] / contact_solutions.MINDLIN_LIMIT
+        runner.check(abs(force - load) < 0.02, f"{force} of the force at which all slides instead of {load}")
+        radius = contact_solutions.stick_radius(state, states[1], row["time"])
+        runner.check(abs(radius - (1 - load) ** (1 / 3)) < 0.12, f"with {load} it sticks within {radius} a")
+
+
+def ironing():
+    """A die that goes over cells feels them little: less than 3 % of its force, with friction too, which is that of Coulomb then."""
+    for settings, n_begin in (({"Time/Steps": 84}, 4), ({"Tool die/Friction": 0.3, "Contact/Slip resolution": 2e-4}, 24)):
+        ironed = simulate(CONTACT / "ironing.prm", settings)
+        rows = ironed.table("tool_die.csv")[n_begin:]
+        whole, period = contact_solutions.variation([row["fy"] for row in rows], 20)
+        runner.check(whole < 0.03 and 1e-4 < period < 0.02, f"{settings}: the force varies by {whole}, within a cell by {period}")
+        ratio = sum(row["fx"] for row in rows) / -sum(row["fy"] for row in rows)
+        runner.check(abs(ratio - settings.get("Tool die/Friction", 0)) < 0.015, f"{settings}: sideways {ratio} of the force down")
 
 
 def friction():
@@ -112,6 +147,43 @@ def friction():
     runner.check(abs(carried.probes()[-1]["block.vx"] / 0.2 - 1) < 0.01, f"{carried.probes()[-1]['block.vx']} m/s on a plane with 0.2 m/s")
     runner.check(balance(history) < 1e-10 and history[-1]["work"] > 0.9 * 0.5 * 0.2**2, f"carried: {balance(history)}")
     runner.check(abs(carried.table("tool_plane.csv")[-1]["work"] - history[-1]["work"]) < 1e-12, "work of the tool")
+
+
+def trouble():
+    """What friction makes hard to find is told, and what can't be found at all is told by its names and places, with all files."""
+    hard = {"Tool floor/Friction": 0.3, "Time/Steps": 12}
+    words = " ".join(simulate(CUBE, {**hard, "Contact/Slip resolution": 1e-5, "Time/Newton iterations": 30}).summary()["warnings"])
+    runner.check("Friction makes steps hard to find" in words and "Contact/Slip resolution is 1e-05 m/s" in words, f"no warning of friction: {words}")
+    words = " ".join(simulate(CUBE, {**hard, "Contact/Slip resolution": 0.1}).summary()["warnings"])
+    runner.check("Friction makes" not in words, f"a warning of friction that is easy: {words}")
+
+    held = folder / "held.prm"
+    held.write_text(f"""# two blocks whose faces are held and driven into each other
+subsection Mesh
+  set Box size         = 0.1, 0.1, 0.1
+  set Box cubes        = 3, 3, 3
+  set Piece maps       = x; y; z | 0.02 + x; y; z + 0.105
+  set Boundary regions = 7: abs(z - 0.1) < 1e-9; 8: abs(z - 0.105) < 1e-9
+end
+{SOFT}subsection Constraints
+  set Clamped boundaries = 7
+end
+subsection Motion
+  set Of           = boundary 8
+  set Displacement = 0; 0; -0.02*t
+end
+subsection Contact
+  set Bodies = pieces
+end
+""")
+    for settings, last in (({"Time/Problem": "static", "Time/Steps": 20}, 0.25), ({"Time/Step": 0.05, "Time/Steps": 10}, 0.25)):
+        results = folder / f"held-{settings.get('Time/Problem')}"
+        status, _, error = runner.run(held, "--quiet", "--output", results, *runner.overrides(settings))
+        runner.check(status == 2 and all(word in error for word in ("piece 1, boundary 7, vertex", "piece 2, boundary 8, vertex", "can't be")), error)
+        history = runner.Results(results).history()
+        runner.check(0.2 - 1e-9 < history[-1]["time"] < last and (results / "summary.json").exists() and (results / "report.html").exists(),
+                     f"it ended at {history[-1]['time']}")
+        runner.check(len(runner.Results(results).frame_times()) > 1, "frames are missing")
 
 
 def impact():

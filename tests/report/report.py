@@ -21,6 +21,9 @@ folder = pathlib.Path(tempfile.mkdtemp(prefix="supple-"))
 PUSHED = {"Start/Velocity": "0; 0; -40", "Time/Steps": 60, "Solver/Tolerance": 1e-12}
 
 
+FIELDS = ["volume_ratio", "von_mises_stress", "contact_pressure", "error_in_space"]
+
+
 class Page:
     """The data of a page, unpacked as the page itself does it."""
 
@@ -37,7 +40,7 @@ class Page:
         n, m = surface["vertices"], surface["triangles"]
         self.rest = self.triples(struct.unpack_from(f"<{3 * n}f", packed))
         self.triangles = self.triples(struct.unpack_from(f"<{3 * m}I", packed, 12 * n))
-        length = 3 * n + (3 if "error_in_space" in surface else 2) * m
+        length = 3 * n + sum(field in surface for field in FIELDS) * m
         begin = 12 * n + 12 * m + 4 * ((m + 1) // 2)
         unpacked = zlib.decompress(packed[begin:])
         runner.check(len(unpacked) == 2 * length * len(surface["times"]), f"{len(unpacked)} bytes of frames")
@@ -50,6 +53,9 @@ class Page:
             u = [unit * (value - 65536 * (value >= 32768)) for value in values[:3 * n]]
             ratios = [low + (high - low) * value / 65535 for value in values[3 * n:3 * n + m]]
             self.frames.append((self.triples(u), ratios))
+        if "contact_pressure" in surface:  # in the last frame, of the triangles
+            low, high = surface["contact_pressure"]
+            self.pressures = [low + (high - low) * value / 65535 for value in values[3 * n + 2 * m:3 * n + 3 * m]]
 
     @staticmethod
     def triples(values):
@@ -107,6 +113,18 @@ low, high = erring.data["surface"]["error_in_space"]
 runner.check(low == 0 and 1 < high < 10 and "error_in_space" not in surface, f"errors in space of {low} to {high}")
 told = [when for when, error in zip(*(erring.data["tables"]["history"]["columns"][name] for name in ("time", "space_error"))) if error is not None]
 runner.check(told == [round(time, 9) for time in erring.data["surface"]["times"][1:]], f"errors in space at {told}")
+
+# The pressure of contact, where there is any: of a block on an incline, its weight over the face that touches; on two processes too.
+pages = [Page(runner.simulate(runner.ROOT / "parameters" / "contact" / "incline.prm", {"Time/Steps": 20, "Solver/Tolerance": 1e-10}, ranks=ranks))
+         for ranks in (1, 2)]
+for touching in pages:
+    runner.check("contact_pressure" in touching.data["surface"] and "error_in_space" not in touching.data["surface"], "no pressure of contact")
+    below = [p for triangle, p in zip(touching.triangles, touching.pressures) if all(abs(touching.rest[v][2]) < 1e-9 for v in triangle)]
+    others = [p for triangle, p in zip(touching.triangles, touching.pressures) if all(touching.rest[v][2] > 1e-9 for v in triangle)]
+    runner.check(len(below) == 18 and abs(sum(below) / 18 / 910.8 - 1) < 0.1 and max(others) == 0, f"pressures of {below} Pa")
+worst = max(abs(a - b) for a, b in zip(*(page.pressures for page in pages)))
+runner.check(worst < 1e-3 * max(pages[0].pressures), f"two processes: pressures differ by {worst} Pa")
+runner.check("contact_pressure" not in page.data["surface"], "pressures of nothing")
 
 # Long histories are thinned, but not their extremes.
 long = runner.simulate(runner.BAR, {"Time/Steps": 5000, "Time/Step": 0.0014, "Corotation/Rotation": "none",
@@ -296,6 +314,11 @@ with chromium.Chromium() as browser:
     browser.evaluate("(s => { s.value = 'error_in_space'; s.dispatchEvent(new Event('change')); })(document.querySelector('.controls select'))")
     runner.check(settled(browser)["hash"] != before, "the body has no colours of its errors in space")
     runner.check("of a swing" in browser.evaluate("document.querySelector('.summary').textContent"), "the summary tells no error in space")
+
+    opens(browser, pages[0].file, "pressure of contact", **DESKTOP)
+    before = settled(browser)["hash"]
+    browser.evaluate("(s => { s.value = 'contact_pressure'; s.dispatchEvent(new Event('change')); })(document.querySelector('.controls select'))")
+    runner.check(settled(browser)["hash"] != before, "the body has no colours of its pressure of contact")
 
     opens(browser, flat.file, "dark", **DESKTOP, dark=True)
     background = [int(c) for c in re.findall(r"\d+", browser.evaluate("getComputedStyle(document.body).backgroundColor"))]

@@ -81,6 +81,8 @@ namespace Supple
     std::vector<Slip>
     slips(const Places &places, double duration) const;
 
+    const double slip_resolution; ///< v [m/s]
+
   private:
     struct Touch
     {
@@ -90,7 +92,6 @@ namespace Supple
     };
 
     const std::vector<double> coefficients;
-    const double slip_resolution;
     std::vector<Touch> touches;
   };
 } // namespace Supple

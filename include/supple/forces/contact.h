@@ -171,8 +171,13 @@ namespace Supple
     std::vector<double>
     works(const Configuration &configuration, double weight) const;
 
-    /** The pressure of all that touches on each node, over its share of the surface, as the first
-     * of its three numbers [Pa]. */
+    /**
+     * The pressure of all that touches, as the first of the three numbers of each node [Pa]: the
+     * force on the node over its share of the faces of cells that touch, so that an edge between
+     * such a face and another has its whole pressure. Where a guard alone acts, over its share of
+     * all faces. On quadratic cells, whose corners bear nothing of an even pressure, it is the mean
+     * of such means of the faces around. Collective.
+     */
     Vector
     pressure(const Configuration &configuration) const;
 
@@ -186,6 +191,44 @@ namespace Supple
      * there is no such state. Collective. */
     void
     require_room(const Passage &passage, const Constraints &constraints) const;
+
+    /** @throws ComputationError if two places of the surface that are held or moved as prescribed
+     * are on their way into each other, and as good as there. Of one process. */
+    void
+    require_room_between(const Configuration &configuration, const Constraints &constraints) const;
+
+    /** For messages: what is nearest to what, where, and how near; empty if nothing is. Collective.
+     */
+    std::string
+    nearest_in_words(const Configuration &configuration) const;
+
+    /** How hard steps with friction were to find. */
+    struct Trouble
+    {
+      unsigned int most_corrections = 0;  ///< of Newton's, for a stage
+      unsigned int n_failed         = 0;  ///< stages that had to be done again in other steps
+      double fastest_slip           = 0.; ///< [m/s]
+    };
+
+    const Trouble &
+    trouble() const
+    {
+      return of_friction;
+    }
+
+    /** To be called when a stage has been found; collective. */
+    void
+    note_found(const Configuration &configuration, unsigned int n_corrections);
+
+    /** To be called when no stage has been found. */
+    void
+    note_failed();
+
+    double
+    slip_resolution() const
+    {
+      return friction.slip_resolution;
+    }
 
     /** Of the barrier between bodies [m]. */
     double
@@ -283,6 +326,15 @@ namespace Supple
     std::vector<Friction::Slip>
     slips(const double *u, const Passage &passage) const;
 
+    /** A part of the surface with its piece, its boundary and a vertex. */
+    std::string
+    in_words(const SurfacePart &part) const;
+
+    /** The pair of the surface with itself whose gap is least; nothing if none is within the reach.
+     */
+    std::optional<ContactPair>
+    nearest_own_pair(const Configuration &configuration) const;
+
     /** kappa w f: what multiplies the barrier of a pair [N/m]. */
     double
     factor(const ContactPair &pair) const
@@ -331,7 +383,8 @@ namespace Supple
     std::vector<Stiffness> tangent;
     Friction friction;
     std::vector<double> largest_turns; ///< within a step, of each tool [rad]
-    Couplings coupled;                 ///< of the surface with itself, ascending
+    Trouble of_friction;
+    Couplings coupled; ///< of the surface with itself, ascending
     bool pattern_is_old = false;
   };
 } // namespace Supple

@@ -10,6 +10,9 @@
 
 namespace Supple
 {
+  class Words;
+
+
   /**
    * What hands hold and have changed in a live session, as deeds tell:
    *
@@ -90,6 +93,31 @@ namespace Supple
     }
 
   private:
+    // The deeds. @throws InputError
+    void
+    grab(Words &words, double time);
+    void
+    hold(Words &words, double time);
+    void
+    move(Words &words, double time);
+    void
+    release(Words &words, double time);
+    void
+    take(Words &words, double time);
+    void
+    move_tool(Words &words, double time);
+    void
+    set_entry(Words &words, double time);
+    void
+    renew(Words &words, double time);
+
+    /** The next word, a vertex that no hand has. */
+    unsigned int
+    free_vertex(Words &words) const;
+
+    static void
+    move_path(HandPath &path, Words &words, double time);
+
     std::map<unsigned int, Grab> grabbed;
     std::map<unsigned int, std::shared_ptr<HandPath>> held;
     std::map<std::string, std::shared_ptr<HandPath>> tools;

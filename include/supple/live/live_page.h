@@ -26,15 +26,15 @@ namespace Supple
   /** A frame: what the page needs to draw the body, as source/report/live_socket.js reads it. */
   struct LiveFrame
   {
-    double time                  = 0.; ///< [s]
-    unsigned int step            = 0;
-    unsigned int last_request    = 0;
-    double factor                = 0.; ///< simulated seconds a second
-    bool running                 = false;
-    bool late                    = false;
-    double steps_per_second      = 0.;
-    double seconds_per_step      = 0.; ///< [s]
-    unsigned int session         = 1;
+    double time               = 0.; ///< [s]
+    unsigned int step         = 0;
+    unsigned int last_request = 0;
+    double factor             = 0.; ///< simulated seconds a second
+    bool running              = false;
+    bool late                 = false;
+    double steps_per_second   = 0.;
+    double seconds_per_step   = 0.; ///< [s]
+    unsigned int session      = 1;
     std::vector<Pose> tools;
     std::vector<float> displacements; ///< [m]
   };

@@ -20,6 +20,9 @@
 
 namespace Supple
 {
+  class Words;
+
+
   /**
    * A session that a page moves, in real time or as fast as it can.
    *
@@ -71,9 +74,17 @@ namespace Supple
     void
     obey(const Mailbox::Request &request);
 
-    /** @throws InputError */
+    /** @throws InputError if the session can't do that; nothing has changed then */
     void
     act(const std::string &command);
+
+    /** Does what a page says of the time and the session. @return whether it says that */
+    bool
+    control(const std::string &what, Words &words);
+
+    /** Does what a page says of a hand. @return whether it says that */
+    bool
+    move_by_hand(const std::string &what, Words &words);
 
     void
     take_step();
@@ -118,9 +129,9 @@ namespace Supple
     const std::unique_ptr<Listener> watcher; ///< has energies measured whatever is written
     std::unique_ptr<Session> session;
     std::unique_ptr<BodySurface> surface;
-    Mailbox mailbox;                    ///< on the first process
-    std::unique_ptr<LiveServer> server; ///< on the first process
-    Pace pace;                          ///< on the first process
+    Mailbox mailbox;                               ///< on the first process
+    std::unique_ptr<LiveServer> server;            ///< on the first process
+    Pace pace;                                     ///< on the first process
     Pace::Clock::time_point last_frame, last_rows; ///< on the first process
     std::optional<InterruptGuard> interrupt;
 
@@ -132,7 +143,7 @@ namespace Supple
 
     std::unique_ptr<Replay> again;
     double seconds_of_again = 0.; ///< that it took
-    Vector displacement_to_meet; ///< where the session was when it was begun [m]
+    Vector displacement_to_meet;  ///< where the session was when it was begun [m]
 
     // Since the last rows.
     std::vector<std::vector<double>> history, probes, errors;

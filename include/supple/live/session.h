@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace Supple
@@ -162,15 +163,20 @@ namespace Supple
     const bool quiet;
     const double finer;
     const MPI_Comm communicator;
-    Hands hands, hands_before;   ///< now, and after the last step
-    std::vector<Deed> done, new_deeds; ///< new: since the last step
+    std::unordered_map<unsigned int, unsigned int> own_nodes; ///< by the index in the mesh
+    Hands hands, hands_before;                                ///< now, and after the last step
+    std::vector<Deed> done, new_deeds;                        ///< new: since the last step
     std::unique_ptr<Simulation> simulation;
     Listener *guest = nullptr;
-    double stop     = 0.; ///< of variable steps; 0: none
-    std::ofstream motion_file;              ///< on the first process
+    double stop     = 0.;                 ///< of variable steps; 0: none
+    std::ofstream motion_file;            ///< on the first process
     std::unique_ptr<CsvFile> grips_table; ///< on the first process
-    std::vector<std::string> warnings_told;
   };
+
+
+  /** A scene without the other runs that tell its error: they would know nothing of hands. */
+  Parameters
+  alone(Parameters scene);
 
 
   /** The names of the files of a session in its folder. */

@@ -95,8 +95,8 @@ namespace Supple
     {
       unsigned int direction;
       std::function<double(const dealii::Point<3> &, double)> displacement; ///< of place and time
-      std::vector<unsigned int> nodes; ///< owned
-      dealii::Point<3> sample;         ///< one of the vertices, the same on all processes
+      std::vector<unsigned int> nodes;                                      ///< owned
+      dealii::Point<3> sample; ///< one of the vertices, the same on all processes
     };
 
     void

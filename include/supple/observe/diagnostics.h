@@ -41,8 +41,8 @@ namespace Supple
     void
     load(const nlohmann::json &saved);
 
-    /** Books as work what a change of the scene at a time [s] has done to the energies of the state,
-     * of which load() has those before. Collective. */
+    /** Books as work what a change of the scene at a time [s] has done to the energies of the
+     * state, of which load() has those before. Collective. */
     void
     book_change(double time);
 

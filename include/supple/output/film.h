@@ -15,8 +15,8 @@ namespace Supple
 {
   /**
    * The surface of the body in each frame, for the report page: the displacement of its vertices,
-   * and volume ratio, von Mises stress and perhaps the error in space of the cells behind its
-   * triangles.
+   * and volume ratio and von Mises stress of the cells behind its triangles; perhaps the pressure
+   * of contact, the mean of their vertices, and the error in space of these cells.
    *
    * The frames are kept in a file of the output folder, report.frames, so that a run that goes on
    * from a checkpoint has those before it.
@@ -24,8 +24,9 @@ namespace Supple
   class Film
   {
   public:
-    /** @param with_errors whether frames have errors in space; zero where they are unknown */
-    Film(const Body &body, const std::string &folder, bool with_errors);
+    /** @param with_contact whether something may touch the body
+     * @param with_errors   whether frames have errors in space; zero where they are unknown */
+    Film(const Body &body, const std::string &folder, bool with_contact, bool with_errors);
 
     /** Its name in the folder. */
     static std::string
@@ -49,6 +50,10 @@ namespace Supple
     remove() const;
 
   private:
+    /** A field of this process's triangles. @param name one of fields */
+    std::vector<float>
+    own_values(const std::string &name, const Drawing &drawing) const;
+
     /** The values of all triangles, field by field, on the first process; collective. */
     std::vector<float>
     gather_fields(const Drawing &drawing) const;
@@ -71,8 +76,8 @@ namespace Supple
     const BodySurface surface;
     const MPI_Comm communicator;
     const std::string file;
-    const std::size_t n_fields; ///< of the triangles
-    const std::string magic;    ///< how the file begins
+    const std::vector<std::string> fields; ///< of the triangles, their names
+    const std::string magic;               ///< how the file begins
     const bool root;
     std::ofstream stream;
     std::uint64_t n_missing = 0; ///< frames of the run that are not in the file, for they were lost

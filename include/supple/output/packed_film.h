@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace Supple
@@ -22,19 +23,19 @@ namespace Supple
    * What the report page needs to draw the body: a description, and bytes of which it tells the
    * places, all little-endian: rest positions (3 float each), triangles (3 uint32), the place of
    * their material among those that occur (1 uint16, one more if their number is odd), and a zlib
-   * stream of the frames. The values of a frame are displacements (3 int16 each), volume ratio, von
-   * Mises stress and, if there are three fields, error in space of the triangles (uint16). The
-   * stream has their differences d from the frame before, as 2 d or -2 d - 1 (uint16): the low
-   * bytes of a frame, then its high ones.
+   * stream of the frames. The values of a frame are displacements (3 int16 each), and then field by
+   * field those of the triangles (uint16). The stream has their differences d from the frame
+   * before, as 2 d or -2 d - 1 (uint16): the low bytes of a frame, then its high ones.
    */
   class PackedFilm
   {
   public:
-    /** @param rest positions, 3 for each vertex [m] */
+    /** @param rest positions, 3 for each vertex [m]
+     * @param fields names of those of the triangles */
     PackedFilm(const std::vector<float> &rest,
                const std::vector<std::array<unsigned int, 3>> &triangles,
                const std::vector<unsigned int> &materials_of_triangles,
-               std::size_t n_fields);
+               const std::vector<std::string> &fields);
 
     /** In place of those that were set before. @throws WriteError */
     void
@@ -50,6 +51,7 @@ namespace Supple
     void
     set_ranges(const std::vector<FilmFrame> &frames);
 
+    std::vector<std::string> fields;
     std::size_t n_vertices, n_triangles, n_surface_bytes;
     std::vector<double> times;                 ///< [s]
     std::vector<double> steps;                 ///< in which they were reached

@@ -14,6 +14,9 @@
 
 namespace Supple
 {
+  class Contact;
+
+
   /** Describes a run in words. */
   class Description
   {
@@ -55,6 +58,10 @@ namespace Supple
 
     std::vector<std::string>
     warnings_of_contact() const;
+
+    /** Whether what sticks and what slips may depend on round-off; empty if not. */
+    std::string
+    trouble_of_friction(const Contact &contact) const;
 
     std::vector<std::string>
     warnings_of_solver() const;

@@ -42,9 +42,7 @@ namespace Supple
     std::vector<std::string> warnings; ///< of what was found at the start
 
   private:
-    Problem(const Parameters &scene,
-            const std::shared_ptr<const Mesh> &mesh,
-            bool begins_at_start);
+    Problem(const Parameters &scene, const std::shared_ptr<const Mesh> &mesh, bool begins_at_start);
 
     /** @throws InputError */
     void

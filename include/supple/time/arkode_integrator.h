@@ -213,7 +213,7 @@ namespace Supple
     double set_size        = 0.; ///< the fixed step ARKode knows of [s]
     double last_size       = 0.; ///< of the last fixed step that succeeded [s]
     double size_limit      = std::numeric_limits<double>::max(); ///< of the next step [s]
-    double grid_start      = 0.;    ///< of fixed steps [s]
+    double grid_start      = 0.;                                 ///< of fixed steps [s]
     unsigned int grid      = 0;     ///< steps of full size that are reached since then
     bool newton_fails      = false; ///< up to the next of them
     bool given_up          = false; ///< up to the next of them: the energy rises

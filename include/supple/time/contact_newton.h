@@ -33,6 +33,10 @@ namespace Supple
     unsigned long n_iterations = 0;
 
   private:
+    /** What solve() does, but for what contact is told of it. */
+    void
+    find(ImplicitStage &stage);
+
     /** What tells how the energy changes along a correction. */
     struct Slope
     {
@@ -78,7 +82,7 @@ namespace Supple
     bool
     is_balanced(const ImplicitStage &stage);
 
-    /** For messages: what is nearest to the body, and how near. Collective. */
+    /** For messages: what is nearest to what, and how near. Collective. */
     std::string
     what_is_near() const;
 

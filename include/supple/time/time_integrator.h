@@ -97,7 +97,7 @@ namespace Supple
     add_work_of_tools(StepReport &report, double weight) const;
 
     const Model model;
-    double time = 0.; ///< [s]; the load factor of a static problem
+    double time = 0.;                                 ///< [s]; the load factor of a static problem
     double stop = std::numeric_limits<double>::max(); ///< of variable steps [s]
 
   private:

@@ -110,7 +110,8 @@ namespace Supple
     double
     end() const;
 
-    /** Where integrators end [s], or the load factor: end(), or a thousand times that if it is open.
+    /** Where integrators end [s], or the load factor: end(), or a thousand times that if it is
+     * open.
      */
     double
     last_end() const
