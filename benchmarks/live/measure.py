@@ -160,7 +160,7 @@ def measured(program_page, size, seconds, threads):
         steps = (page.step_and_time()[0] - step) / (time.monotonic() - begin)
         page.do("pause")
         memory = session.memory()
-        surface = 4 * (size * 2 * size * 8) * 2 + 2 * (2 * size)**2 + 2  # vertices
+        surface = 2 * (2 * size + 1)**2 + 8 * size * (8 * size - 1)  # vertices
         page.quit()
         session.process.terminate()
         session.end()
