@@ -14,7 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 MOST_LINES = 700
 MOST_LINES_OF_FUNCTION = 60
 CODE = {".cc", ".h", ".py", ".js", ".mjs", ".css", ".sh"}
-NO_TEXT = {".png", ".svg", ".msh", ".output", ".csv", ".json"}
+NO_TEXT = {".png", ".webp", ".svg", ".msh", ".output", ".csv", ".json"}
 # The folders of include/supple and source, from the ground up: each includes from those before it.
 FLOORS = ["base", "input", "linear_algebra", "multigrid", "mesh", "mechanics", "contact", "forces", "solvers", "time", "observe", "output",
           "scene", "report", "run", "study", "identification", "live", "program"]

@@ -13,6 +13,7 @@ import {Hand} from './live_hand.js';
 import {Connection} from './live_socket.js';
 import {LiveStage} from './live_stage.js';
 import {LiveSurface} from './live_surface.js';
+import {Timing} from './live_timing.js';
 import {Tools} from './live_tools.js';
 
 const STATES = {
@@ -42,9 +43,13 @@ class Session {
     this.clock = new Clock(this.say, data.speed);
     this.entries = new Entries(data.entries, connection);
     this.again = new Again(this.say);
+    this.timing = new Timing(connection);
     this.charts = new LiveCharts(data, surface, data.tools.map((_, number) => this.tools.describe(number)));
     this.badge = element('span', {class: 'state'}, 'connecting');
     this.notices = element('div', {});
+    /** Below the body, and a word of them on top: the body must not move under a hand. */
+    this.warnings = element('div', {id: 'warnings'});
+    this.warned = element('a', {class: 'state interrupted', href: '#warnings', hidden: true});
     this.facts = element('p', {class: 'facts'});
     this.toast = element('div', {class: 'toast', role: 'status', hidden: true});
     this.stage.frame.append(this.toast);
@@ -56,9 +61,9 @@ class Session {
     const keys = 'Keys: space runs and pauses, s makes a single step, Shift+R starts again, Esc releases all, 1 to 5 choose what the hand does, Alt and dragging turns the view on the body too; w mesh, g undeformed; in the view arrows turn, + − zoom, 0 resets.';
     const end = element('button', {type: 'button', onclick: () => this.say('quit')}, 'End the session');
     this.showFacts();
-    return [element('header', {}, element('h1', {}, data.name, this.badge), this.facts), this.notices,
+    return [element('header', {}, element('h1', {}, data.name, this.badge, this.warned), this.facts), this.notices,
       element('div', {class: 'columns live'},
-        element('div', {class: 'left'}, this.stage.root, this.clock.root, this.hands.root, this.stage.controls),
+        element('div', {class: 'left'}, this.stage.root, this.clock.root, this.hands.root, this.stage.controls, this.warnings),
         element('div', {class: 'right'}, element('div', {class: 'beside'}, this.tools.root, this.charts.first), element('div', {class: 'settings'}, this.entries.root, this.again.root), this.charts.root)),
       element('section', {class: 'about'}, element('h2', {}, 'About this page'), element('p', {}, keys),
         element('p', {}, 'All that is done here is written down; the scene and the motion file in the output folder repeat it. Drawn are the states that were computed, not all of them where they come faster than the screen; displacements have 16 bits here. The files have all digits.'),
@@ -88,10 +93,19 @@ class Session {
     if (this.ending) list.push(notice('warn', 'Ended.', this.ending));
     if (this.complaint) list.push(notice('bad', 'The program closed the connection.', this.complaint));
     if (this.failure) list.push(notice('bad', 'A step failed.', `${this.failure} The session is paused in the state before it.`));
-    if (warnings.length > 0) list.push(element('div', {class: 'notice warn'}, element('strong', {}, warnings.length === 1 ? 'Warning' : 'Warnings'), element('ul', {}, warnings.map((text) => element('li', {}, text)))));
     const text = list.map((node) => node.textContent).join('\n');
     if (text !== this.noticed) this.notices.replaceChildren(...list);
     this.noticed = text;
+    this.showWarnings(warnings);
+  }
+
+  showWarnings(list) {
+    const text = list.join('\n');
+    if (text === this.warnedOf) return;
+    this.warnedOf = text;
+    this.warned.hidden = list.length === 0;
+    this.warned.textContent = list.length === 1 ? '1 warning' : `${list.length} warnings`;
+    this.warnings.replaceChildren(...list.map((warning) => element('div', {class: 'notice warn', role: 'status'}, warning)));
   }
 
   /** A word over the body, which goes away. */
@@ -113,11 +127,13 @@ class Session {
   }
 
   frame() {
+    this.timing.arrived(this.connection.frame);
     this.stage.view.invalidate();
   }
 
   drawn(frame) {
     this.connection.drawn();
+    this.timing.drawn(frame.command);
     this.newest = frame;
     this.clock.show(frame);
     if (!this.settled || !this.tools.touched) this.tools.settle(frame.poses);
@@ -223,6 +239,10 @@ function makeHooks(session) {
     wanted: (name) => session.tools.wanted[session.data.tools.findIndex((tool) => tool.name === name)],
     /** Numbers of the vertices in hands. */
     grabbed: () => [...hand.pulls.keys()],
+    /** Says a command: milliseconds until a frame that knows of it has arrived, and until it was drawn. */
+    timed: (command) => session.timing.say(command),
+    /** How many frames were drawn. */
+    frames: () => session.timing.frames,
   };
 }
 

@@ -50,7 +50,7 @@ export class LiveStage {
     this.ghostButton = toggle('Undeformed', 'The body at rest (g)', true, (ghost) => this.set({ghost}));
     const reset = element('button', {type: 'button', title: 'Look from the start again (0 in the view)', onclick: () => this.view.reset()}, 'Reset view');
     return element('div', {class: 'controls'},
-      choice('Colour', COLOURS, 'displacement', (field) => this.set({field})),
+      choice('Color', COLOURS, 'displacement', (field) => this.set({field})),
       choice('Range', RANGES, 'session', (range) => this.set({ofInstant: range === 'instant'})),
       choice('Displacement', FACTORS.map((factor) => [factor, `× ${factor}`]), 1, (factor) => this.set({enlarged: Number(factor)})),
       element('span', {class: 'buttons'}, this.wireButton, this.ghostButton, reset));

@@ -67,7 +67,7 @@ export class Stage {
     this.ghostButton = toggle('Undeformed', 'The body at rest (g)', true, (ghost) => this.set({ghost}));
     const reset = element('button', {type: 'button', title: 'Look from the start again (0 in the view)', onclick: () => this.view.reset()}, 'Reset view');
     return element('div', {class: 'controls'},
-      choice('Colour', fields.map((field) => [field, FIELDS[field].title]), 'von_mises_stress', (field) => this.set({field})),
+      choice('Color', fields.map((field) => [field, FIELDS[field].title]), 'von_mises_stress', (field) => this.set({field})),
       choice('Range', [['run', 'whole run'], ['instant', 'this instant']], 'run', (range) => this.set({ofInstant: range === 'instant'})),
       choice('Displacement', factors.map((factor) => [factor, `× ${digits(factor)}`]), this.enlarged,
         (factor) => { this.set({enlarged: Number(factor)}); this.view.reset(); }),

@@ -157,7 +157,7 @@ with chromium.Chromium() as browser:
         check_silent(browser, "bar")
         end(browser, session)
     check_repeated(session, vertex, forces)
-    with live_client.Session(NEEDLE, {}) as session:
+    with live_client.Session(NEEDLE, {"Mesh/Box cubes": "8, 6, 8"}) as session:
         browser.visit(session.address)
         browser.wait_for("supple.state().session !== undefined")
         push_needle(browser)
