@@ -28,8 +28,8 @@ namespace Supple
 
   namespace
   {
-    constexpr std::chrono::milliseconds between_frames(16), between_rows(50),
-      between_marks(1000), nap(50);
+    constexpr std::chrono::milliseconds between_frames(16), between_rows(50), between_marks(1000),
+      nap(50);
     constexpr std::size_t most_rows = 256; ///< that are told at once
     constexpr double frame_time     = 1. / 60.;
 
@@ -179,8 +179,8 @@ namespace Supple
       }
     if (root)
       {
-        const std::string once_more = "supple " + folder + "/" + repeated_scene_name +
-                                      " does the same once more.";
+        const std::string once_more =
+          "supple " + folder + "/" + repeated_scene_name + " does the same once more.";
         tell({{"kind", "ended"}, {"message", "The session has ended. " + once_more}});
         server.reset();
         if (talks)

@@ -31,7 +31,8 @@ namespace Supple
       const unsigned long number = std::strtoul(step.c_str(), &step_end, 10);
       const double at            = std::strtod(time.c_str(), &time_end);
       if (step_word != "step" || time_word != "time" || step.empty() || *step_end != '\0' ||
-          step[0] == '-' || errno != 0 || number > most_steps || time.empty() || *time_end != '\0' || !std::isfinite(at) || at < 0. || text.empty())
+          step[0] == '-' || errno != 0 || number > most_steps || time.empty() ||
+          *time_end != '\0' || !std::isfinite(at) || at < 0. || text.empty())
         throw InputError(place + ": found '" + line +
                          "'; a line of a motion is \"step NUMBER time SECONDS DEED\", such as "
                          "\"step 118 time 1.9666 release 57\".");

@@ -130,8 +130,9 @@ namespace Supple
     progress.clear();
     of_deeds.end();
     if (talks && deeds.back().text != end_of_motion)
-      std::cout << "  warning     The motion has no end: its session was cut off. It was repeated up "
-                   "to its last line, "
-                << of_deeds.now().time() << " s." << std::endl;
+      std::cout
+        << "  warning     The motion has no end: its session was cut off. It was repeated up "
+           "to its last line, "
+        << of_deeds.now().time() << " s." << std::endl;
   }
 } // namespace Supple

@@ -168,7 +168,7 @@ namespace Supple
               for (const Pull::End &end : grab.ends)
                 require_vertex(end.vertex);
             for (const auto &[vertex, path] : trial.holds())
-              require_vertex(vertex);
+              require_free(vertex);
             if (thoroughly && effect == Hands::Effect::changes)
               {
                 hands = trial;
@@ -264,6 +264,22 @@ namespace Supple
       here += body.serial_vertex[node] == vertex;
     if (Utilities::MPI::sum(here, communicator) == 0)
       throw InputError("the mesh has no cell with a vertex " + std::to_string(vertex) + ".");
+  }
+
+
+  void
+  Session::require_free(const unsigned int vertex) const
+  {
+    require_vertex(vertex);
+    const Problem &problem = simulation->present();
+    unsigned int held      = 0;
+    if (const auto own = own_nodes.find(vertex); own != own_nodes.end())
+      for (unsigned int i = 0; i < 3; ++i)
+        held += problem.constraints.holds(3 * own->second + i) &&
+                !problem.body.is_held_by_nature(3 * own->second + i);
+    if (Utilities::MPI::sum(held, communicator) > 0)
+      throw InputError(Selection(problem.body).vertex_in_words(vertex) +
+                       " is held or moved already by the scene.");
   }
 
 

@@ -78,18 +78,23 @@ namespace Supple
   void
   Diagnostics::note_extremes(const Measurement &measurement, const double rise)
   {
-    sums.largest_energy = std::max({sums.largest_energy, std::abs(measurement.total), std::abs(sums.work)});
-    sums.worst.min_volume_ratio = std::min(sums.worst.min_volume_ratio, measurement.min_volume_ratio);
-    sums.worst.max_volume_ratio = std::max(sums.worst.max_volume_ratio, measurement.max_volume_ratio);
-    sums.worst.most_inverted    = std::max(sums.worst.most_inverted, measurement.inverted);
+    sums.largest_energy =
+      std::max({sums.largest_energy, std::abs(measurement.total), std::abs(sums.work)});
+    sums.worst.min_volume_ratio =
+      std::min(sums.worst.min_volume_ratio, measurement.min_volume_ratio);
+    sums.worst.max_volume_ratio =
+      std::max(sums.worst.max_volume_ratio, measurement.max_volume_ratio);
+    sums.worst.most_inverted = std::max(sums.worst.most_inverted, measurement.inverted);
     if (rise > energy_accuracy * sums.largest_energy)
       {
         ++sums.worst.energy_rises;
         sums.worst.energy_risen += rise;
       }
-    sums.most_dissipated     = std::max(sums.most_dissipated, measurement.dissipated);
-    sums.worst.energy_gained = std::max(sums.worst.energy_gained, sums.most_dissipated - measurement.dissipated);
-    sums.worst.motion_energy = std::max(sums.worst.motion_energy, measurement.kinetic + measurement.elastic);
+    sums.most_dissipated = std::max(sums.most_dissipated, measurement.dissipated);
+    sums.worst.energy_gained =
+      std::max(sums.worst.energy_gained, sums.most_dissipated - measurement.dissipated);
+    sums.worst.motion_energy =
+      std::max(sums.worst.motion_energy, measurement.kinetic + measurement.elastic);
   }
 
 
@@ -146,10 +151,10 @@ namespace Supple
     if (forces.contact())
       {
         const nlohmann::json &of_tools = saved.at("contact");
-        sums.contact.energy                 = of_tools.at("energy");
-        sums.contact.rubbed                 = of_tools.at("rubbed");
-        sums.worst.releases                 = of_tools.at("releases");
-        sums.worst.gaps                     = of_tools.at("gaps").get<std::vector<double>>();
+        sums.contact.energy            = of_tools.at("energy");
+        sums.contact.rubbed            = of_tools.at("rubbed");
+        sums.worst.releases            = of_tools.at("releases");
+        sums.worst.gaps                = of_tools.at("gaps").get<std::vector<double>>();
         sums.contact.tools.clear();
         for (const double done : of_tools.at("works"))
           {
@@ -289,7 +294,8 @@ namespace Supple
         return result;
       }
 
-    note_extremes(result, sums.first || stationary ? 0. : result.total - sums.total - report.load_work);
+    note_extremes(result,
+                  sums.first || stationary ? 0. : result.total - sums.total - report.load_work);
     if (result.contact)
       note_contact(*result.contact);
     sums.dissipated = result.dissipated;

@@ -137,9 +137,9 @@ namespace Supple
     const std::unique_ptr<Listener> watcher; ///< has energies measured whatever is written
     std::unique_ptr<Session> session;
     std::unique_ptr<BodySurface> surface;
-    Mailbox mailbox;                               ///< on the first process
-    std::unique_ptr<LiveServer> server;            ///< on the first process
-    Pace pace;                                     ///< on the first process
+    Mailbox mailbox;                                          ///< on the first process
+    std::unique_ptr<LiveServer> server;                       ///< on the first process
+    Pace pace;                                                ///< on the first process
     Pace::Clock::time_point last_frame, last_rows, last_mark; ///< on the first process
     std::optional<InterruptGuard> interrupt;
 

@@ -174,8 +174,13 @@ namespace Supple
     dealii::Tensor<1, 3>
     value_at(unsigned int vertex, const Vector &values) const;
 
+    /** @throws InputError if the mesh has no such vertex */
     void
     require_vertex(unsigned int vertex) const;
+
+    /** The same, and if the scene holds it. */
+    void
+    require_free(unsigned int vertex) const;
 
     const Parameters first;
     const Scene read;
