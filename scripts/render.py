@@ -31,7 +31,7 @@ MARGIN, HEAD, FOOT = 0.04, 44, 68    # empty part of a view's width; pixels abov
 TEXT_SIZE = 24
 # How ffmpeg writes them.
 FILMS = {".mp4": ["-vf", "fps=25,format=yuv420p", "-c:v", "libx264", "-crf", "20", "-movflags", "+faststart"],
-         ".webp": ["-vf", "fps=12", "-c:v", "libwebp_anim", "-quality", "70", "-compression_level", "6", "-loop", "0"]}
+         ".webp": ["-vf", "fps=10", "-c:v", "libwebp_anim", "-quality", "60", "-compression_level", "6", "-loop", "0"]}
 
 
 def unit(field, largest):
