@@ -30,6 +30,14 @@ namespace Supple
     {
       return force.is_load() && force.is_linear() && !force.has_tangent();
     }
+
+
+    /** A load that is linear in the displacement: its part without is dead. */
+    bool
+    is_spring(const Force &force)
+    {
+      return force.is_load() && force.is_linear() && force.has_tangent();
+    }
   } // namespace
 
 
@@ -164,14 +172,20 @@ namespace Supple
   bool
   Forces::have_dead_loads() const
   {
-    return any(is_dead_load);
+    return any([](const Force &force) { return is_dead_load(force) || is_spring(force); });
   }
 
 
   void
   Forces::set_dead_loads(Vector &f, const Configuration &configuration, const double time) const
   {
-    sum(f, configuration, time, is_dead_load);
+    sum_into(f, [&](double *sum) {
+      for (const auto &force : list)
+        if (is_dead_load(*force))
+          force->add_force(configuration, time, sum);
+        else if (is_spring(*force))
+          force->add_constant_part(time, 1., sum);
+    });
   }
 
 
@@ -182,7 +196,15 @@ namespace Supple
                            Effort &effort) const
   {
     const PhaseTimer timer(effort, Phase::forces);
-    sum(f, configuration, time, [](const Force &force) { return !is_dead_load(force); });
+    sum_into(f, [&](double *sum) {
+      for (const auto &force : list)
+        {
+          if (!is_dead_load(*force))
+            force->add_force(configuration, time, sum);
+          if (is_spring(*force))
+            force->add_constant_part(time, -1., sum);
+        }
+    });
   }
 
 

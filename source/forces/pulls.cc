@@ -52,6 +52,18 @@ namespace Supple
   }
 
 
+  void
+  Pulls::add_constant_part(const double time, const double part, double *f) const
+  {
+    for (const Spring &spring : springs)
+      {
+        const Tensor<1, 3> way = spring.path->at(time) + spring.offset;
+        for (unsigned int i = 0; i < 3; ++i)
+          f[3 * spring.node + i] += part * spring.stiffness * way[i];
+      }
+  }
+
+
   double
   Pulls::energy(const Configuration &configuration, const double time) const
   {

@@ -94,11 +94,18 @@ namespace Supple
   Hands::operator=(const Hands &other)
   {
     Hands copy(other);
-    grabbed.swap(copy.grabbed);
-    held.swap(copy.held);
-    tools.swap(copy.tools);
-    set.swap(copy.set);
+    swap(copy);
     return *this;
+  }
+
+
+  void
+  Hands::swap(Hands &other)
+  {
+    grabbed.swap(other.grabbed);
+    held.swap(other.held);
+    tools.swap(other.tools);
+    set.swap(other.set);
   }
 
 
@@ -188,7 +195,7 @@ namespace Supple
   void
   Hands::take(Words &words, const double time)
   {
-    const std::string tool = words.name_before(3, "the name of a tool");
+    const std::string tool = words.word("the name of a tool");
     if (has_taken(tool))
       words.refuse("a hand has this tool already");
     tools[tool] = std::make_shared<HandPath>(words.place(), time);
@@ -198,7 +205,7 @@ namespace Supple
   void
   Hands::move_tool(Words &words, const double time)
   {
-    const SharedPath path = path_in(tools, words.name_before(5, "the name of a tool"));
+    const SharedPath path = path_in(tools, words.word("the name of a tool"));
     if (!path)
       words.refuse("no hand has taken this tool");
     move_path(*path, words, time);

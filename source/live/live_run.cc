@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 
 extern char **environ;
@@ -70,14 +71,24 @@ namespace Supple
     }
 
 
-    /** Opens the page where there is a desktop; elsewhere nothing happens. */
+    /**
+     * Opens the page where there is a desktop; elsewhere nothing happens. The address has the
+     * token, which others could read among the arguments of a program: it goes by a file that they
+     * can't read, and that forwards to it.
+     */
     void
     open_in_browser(const std::string &address)
     {
-      if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY"))
+      const char *const own_folder = std::getenv("XDG_RUNTIME_DIR");
+      if (!own_folder || (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")))
         return;
-      std::string program = "xdg-open", argument = address;
-      char *words[] = {program.data(), argument.data(), nullptr};
+      std::string program = "xdg-open", file = std::string(own_folder) + "/supple-live.html";
+      std::ofstream(file) << "<!doctype html><meta http-equiv=\"refresh\" content=\"0; url="
+                          << address << "\">\n";
+      std::error_code unknown;
+      std::filesystem::permissions(
+        file, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write, unknown);
+      char *words[] = {program.data(), file.data(), nullptr};
       pid_t process;
       posix_spawnp(&process, words[0], nullptr, nullptr, words, environ);
     }
@@ -348,7 +359,7 @@ namespace Supple
   {
     if (what == "tool")
       {
-        const std::string tool   = words.name_before(3, "the name of a tool");
+        const std::string tool   = words.word("the name of a tool");
         const Tensor<1, 3> place = words.place();
         words.expect_end();
         if (const std::string take = session->take(tool); !take.empty())
@@ -366,15 +377,17 @@ namespace Supple
         if (radius < 0. || stiffness < 0.)
           words.refuse("neither radius nor stiffness can be below 0");
         words.expect_end();
+        const std::string deed = session->grab(vertex, radius, stiffness);
         let_go(vertex);
-        session->act(session->grab(vertex, radius, stiffness));
+        session->act(deed);
       }
     else
       words.expect_end();
     if (what == "hold")
       {
+        const std::string deed = session->hold(vertex);
         let_go(vertex);
-        session->act(session->hold(vertex));
+        session->act(deed);
       }
     session->act(move_to("move " + std::to_string(vertex), place));
     return true;

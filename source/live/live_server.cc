@@ -166,12 +166,6 @@ namespace Supple
                          [self = shared_from_this()](const Error &) {});
     }
 
-    bool
-    idle() const
-    {
-      return !writing;
-    }
-
   private:
     void
     read()
@@ -247,8 +241,8 @@ namespace Supple
   class LiveConnection : public std::enable_shared_from_this<LiveConnection>
   {
   public:
-    /** @param upgrade takes the connection over as a socket, if there may be one */
-    using Upgrade = std::function<bool(tcp::socket &&, HttpRequest &&)>;
+    /** @param upgrade takes the connection over as a socket */
+    using Upgrade = std::function<void(tcp::socket &&, HttpRequest &&)>;
     using Answer  = std::function<HttpAnswer(const HttpRequest &)>;
 
     LiveConnection(tcp::socket socket, Answer answer, Upgrade upgrade)
@@ -282,8 +276,7 @@ namespace Supple
       response            = answer(request);
       if (response.result() == http::status::switching_protocols)
         {
-          if (upgrade(stream.release_socket(), std::move(request)))
-            return;
+          upgrade(stream.release_socket(), std::move(request));
           return;
         }
       response.prepare_payload();
@@ -389,7 +382,6 @@ namespace Supple
               const auto open = std::make_shared<LiveSocket>(std::move(upgraded), mailbox);
               socket          = open;
               open->start(std::move(request));
-              return true;
             })
             ->start();
         used = processor_seconds();

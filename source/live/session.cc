@@ -286,33 +286,28 @@ namespace Supple
   void
   Session::act(const std::string &deed)
   {
-    const Hands before         = hands;
-    const Hands::Effect effect = [&] {
-      try
-        {
-          return hands.apply(deed, now().time());
-        }
-      catch (const InputError &)
-        {
-          hands = before;
-          throw;
-        }
-    }();
-    if (effect == Hands::Effect::changes)
-      try
-        {
-          for (const auto &[vertex, grab] : hands.grabs())
-            for (const Pull::End &end : grab.ends)
-              require_vertex(end.vertex);
-          for (const auto &[vertex, path] : hands.holds())
-            require_vertex(vertex);
-          renew();
-        }
-      catch (const InputError &)
-        {
-          hands = before;
-          throw;
-        }
+    // The run has the hands' own paths: those must stay where a deed can't be done.
+    Hands trial = hands;
+    if (trial.apply(deed, now().time()) == Hands::Effect::moves)
+      hands.apply(deed, now().time());
+    else
+      {
+        hands.swap(trial);
+        try
+          {
+            for (const auto &[vertex, grab] : hands.grabs())
+              for (const Pull::End &end : grab.ends)
+                require_vertex(end.vertex);
+            for (const auto &[vertex, path] : hands.holds())
+              require_vertex(vertex);
+            renew();
+          }
+        catch (const InputError &)
+          {
+            hands.swap(trial);
+            throw;
+          }
+      }
     new_deeds.push_back({now().measurement().step, now().time(), deed, ""});
   }
 

@@ -2,13 +2,8 @@
 
 #include <supple/base/error.h>
 
-#include <deal.II/base/utilities.h>
-
-#include <boost/algorithm/string/join.hpp>
-
 #include <cmath>
 #include <cstdlib>
-#include <vector>
 
 namespace Supple
 {
@@ -28,19 +23,6 @@ namespace Supple
     if (!(words >> found))
       refuse(what + " is missing");
     return found;
-  }
-
-
-  std::string
-  Words::name_before(const unsigned int n_words, const std::string &what)
-  {
-    const std::vector<std::string> all = dealii::Utilities::split_string_list(rest(), ' ');
-    if (all.size() <= n_words)
-      refuse(what + " is missing");
-    const auto end = all.end() - n_words;
-    words.clear();
-    words.str(boost::algorithm::join(std::vector<std::string>(end, all.end()), " "));
-    return boost::algorithm::join(std::vector<std::string>(all.begin(), end), " ");
   }
 
 

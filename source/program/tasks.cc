@@ -74,11 +74,12 @@ namespace Supple
     }
 
 
-    /** Reads the scene of the command line with more changes. */
+    /** The scene of the command line, as its file is now, with more changes. */
     Session::Scene
     reader_of(const CommandLine &line)
     {
-      return [file = line.scene, own = line.overrides](const std::vector<Override> &more) {
+      return [file = ParameterFile(line.scene),
+              own  = line.overrides](const std::vector<Override> &more) {
         std::vector<Override> all = own;
         all.insert(all.end(), more.begin(), more.end());
         return read_scene(file, all);

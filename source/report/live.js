@@ -147,7 +147,6 @@ class Session {
   begin(session) {
     if (this.session !== undefined && session !== this.session) {
       this.charts.clear();
-      this.again.clear();
       this.hand.forgetAll();
       this.surface.farthest = this.surface.farthestNow;
       this.tools.touched = false;

@@ -344,6 +344,7 @@ namespace Supple
             problem.configuration.state,
             course.now.time,
             problem.effort,
+            integrator->reactions(),
             vectors,
             Utilities::MPI::broadcast(problem.mesh.communicator, packed)};
   }
@@ -368,6 +369,7 @@ namespace Supple
         throw InputError("the cells remember other things than this scene asks for");
       }
     integrator->begin_at(legacy.time);
+    integrator->recall_reactions(legacy.reactions);
     listeners.load(rest.at("listeners"));
     const std::vector<Vector *> kept = listeners.kept_vectors();
     for (std::size_t k = 0; k < kept.size(); ++k)

@@ -294,9 +294,16 @@ namespace Supple
   Parameters
   read_scene(const std::string &file, const std::vector<Override> &overrides)
   {
+    return read_scene(ParameterFile(file), overrides);
+  }
+
+
+  Parameters
+  read_scene(const ParameterFile &file, const std::vector<Override> &overrides)
+  {
     Parameters parameters;
     dealii::ParameterHandler prm;
-    parameters.file  = ParameterFile(file);
+    parameters.file  = file;
     parameters.tools = tools_of(parameters.file);
     parameters.declare(prm);
     parameters.scene_name = parameters.file.name();

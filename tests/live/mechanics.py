@@ -77,3 +77,31 @@ for name in ("px", "py", "pz"):
 halved = live({"Time/Step": 0.02, "Solver/Tolerance": 1e-13}, [1, "set Time/Step=0.01", 20])
 times = [row["time"] for row in halved.history()]
 runner.check(math.isclose(times[-1], 0.02 + 20 * 0.01, rel_tol=1e-12) and len(times) == 22, f"steps end at {times[-3:]}")
+
+# A spring pulls as hard with semi-implicit methods, whose splitting it is part of, as with an implicit one of their order.
+QUICK = {"Time/Step": 0.002, "Solver/Tolerance": 1e-13, "Start/Velocity": "0; 0; -1"}
+PULL = ["grab 28 2 0 2 by 28 1e9 0 0 0", "move 28 2 0.05 2.1 over 0.04", 40]
+
+
+def forces(method, settings=None):
+    return [(row["fx"], row["fy"], row["fz"]) for row in live({**QUICK, "Time/Method": method, **(settings or {})}, PULL).table("hands.csv")]
+
+
+wanted = forces("esdirk4")
+largest = max(math.hypot(*force) for force in wanted)
+for method, part in (("imex3", 0.4), ("imex4", 0.02), ("imex5", 0.4)):  # how a stiff spring rings differs
+    worst = max(math.dist(one, other) for one, other in zip(forces(method), wanted))
+    runner.check(worst < part * largest, f"{method}: a force of the spring is {worst} N from that of esdirk4, of {largest} N")
+
+# The work of a hand is what its force does on its way, by the tables alone; so is that of a hand that holds.
+for method in ("backward euler", "trbdf2"):
+    for taken in (PULL, ["hold 28 2 0 2", *PULL[1:]]):
+        way = live({**QUICK, "Start/Velocity": "0; 0; 0", "Loads/Gravity": "0, 0, 0", "Time/Method": method}, taken)
+        hands, rows = way.table("hands.csv"), way.history()
+        work, before = 0.0, None
+        for now in hands:
+            if before:
+                mean = [now[c] if method == "backward euler" else 0.5 * (before[c] + now[c]) for c in ("fx", "fy", "fz")]
+                work += sum(f * (now[c] - before[c]) for f, c in zip(mean, "xyz"))
+            before = now
+        close(rows[-1]["work"], work, 0.05, f"{method}, {taken[0][:4]}: work of the hand beside that of its force")

@@ -67,6 +67,13 @@ namespace Supple
     virtual void
     add_force(const Configuration &configuration, double time, double *f) const = 0;
 
+    /** f += a part of what a load that is linear, and has a tangent, is without any displacement.
+     */
+    virtual void
+    add_constant_part(double /*time*/, double /*part*/, double * /*f*/) const
+    {
+    }
+
     /** This process's part of the energy [J]; zero for a load without energy. */
     virtual double
     energy(const Configuration &configuration, double time) const = 0;

@@ -107,7 +107,8 @@ namespace Supple
     bool
     have_dead_loads() const;
 
-    /** f = the sum of the loads that do not depend on the displacement [N]. */
+    /** f = the sum of the loads that do not depend on the displacement, and of the parts of springs
+     * that do not [N]. */
     void
     set_dead_loads(Vector &f, const Configuration &configuration, double time) const;
 

@@ -54,6 +54,10 @@ namespace Supple
     void
     add_force(const Configuration &configuration, double time, double *f) const override;
 
+    /** k (p + o - X) */
+    void
+    add_constant_part(double time, double part, double *f) const override;
+
     /** k/2 |p + o - X - u|^2 */
     double
     energy(const Configuration &configuration, double time) const override;

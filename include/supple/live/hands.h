@@ -38,6 +38,10 @@ namespace Supple
     Hands &
     operator=(const Hands &other);
 
+    /** Exchanges the hands themselves. */
+    void
+    swap(Hands &other);
+
     enum class Effect
     {
       moves,   ///< hands alone

@@ -19,11 +19,6 @@ namespace Supple
     std::string
     word(const std::string &what);
 
-    /** All but the last so many words, a name that may have blanks. @throws InputError if nothing
-     * is left of it */
-    std::string
-    name_before(unsigned int n_words, const std::string &what);
-
     /** Takes this word. @throws InputError if it is another one */
     void
     expect(const std::string &wanted);

@@ -51,6 +51,7 @@ namespace Supple
       State state;
       double time = 0.; ///< [s]
       Effort effort;
+      Vector reactions;         ///< of what holds the body [N]
       std::vector<Vector> kept; ///< of listeners
       std::string rest;         ///< of course, cells, diagnostics and listeners, packed
     };

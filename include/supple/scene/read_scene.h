@@ -18,6 +18,11 @@ namespace Supple
   read_scene(const std::string &file, const std::vector<Override> &overrides = {});
 
 
+  /** The same of a file that was read before. */
+  Parameters
+  read_scene(const ParameterFile &file, const std::vector<Override> &overrides);
+
+
   /**
    * Makes the mesh of a scene, and checks that the scene asks for what a body of its dimension can
    * do. Collective. @throws InputError on all processes

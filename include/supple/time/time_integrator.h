@@ -51,6 +51,13 @@ namespace Supple
       time = start;
     }
 
+    /** Takes the reactions over from an integrator before this one [N]. */
+    void
+    recall_reactions(const Vector &before)
+    {
+      set_reactions(before);
+    }
+
     /** Has variable steps end at a time [s] at the latest. */
     void
     stop_at(const double at)
