@@ -23,6 +23,22 @@ namespace Supple
     }
 
 
+    /** What a patch takes over of the resistance to a change of volume [Pa], and what the cell
+     * keeps. */
+    std::pair<double, IsotropicMaterial>
+    share_of_patch(const LawChoice &law, const IsotropicMaterial &material, const bool quadratic)
+    {
+      if (!law.is_hyperelastic())
+        return quadratic ? std::make_pair(material.lambda, material.without_lambda())
+                         : std::make_pair(material.bulk(), material.deviatoric());
+      IsotropicMaterial kept = material;
+      kept.lambda            = law.least_lambda(material);
+      if (quadratic)
+        kept.lambda += VolumetricPatches::bulk_of_quadratic_cells * material.mu;
+      return {material.lambda - kept.lambda, kept};
+    }
+
+
     /** With a negative factor before (J - 1)^2 bodies would grow without end.
      * @throws InputError */
     void
@@ -107,26 +123,14 @@ namespace Supple
         IsotropicMaterial cell_is_of = material(cell.material_id);
         if (parameters.vertex_mass > 0.)
           cell_is_of.density = 0.;
-        if (cured && law.is_hyperelastic())
+        if (cured)
           {
-            const double kept    = is_quadratic() ? VolumetricPatches::bulk_of_quadratic_cells : 0.;
-            const double of_cell = law.least_lambda(cell_is_of) + kept * cell_is_of.mu;
-            patch_cells.push_back({{}, cell.patch, cell_is_of.lambda - of_cell});
+            const auto [bulk, kept] = share_of_patch(law, cell_is_of, is_quadratic());
+            patch_cells.push_back({{}, cell.patch, bulk});
             if (!is_quadratic())
               patch_cells.back().nodes.assign(cell.nodes.begin(),
                                               cell.nodes.begin() + (mesh.section.plane() ? 3 : 4));
-            cell_is_of.lambda = of_cell;
-          }
-        else if (cured && is_quadratic())
-          {
-            patch_cells.push_back({{}, cell.patch, cell_is_of.lambda});
-            cell_is_of = cell_is_of.without_lambda();
-          }
-        else if (cured)
-          {
-            const auto end = cell.nodes.begin() + (mesh.section.plane() ? 3 : 4);
-            patch_cells.push_back({{cell.nodes.begin(), end}, cell.patch, cell_is_of.bulk()});
-            cell_is_of = cell_is_of.deviatoric();
+            cell_is_of = kept;
           }
         known_cells.push_back({cell.nodes, cell_is_of, cell.owned});
         cell_nodes.push_back(cell.nodes);
