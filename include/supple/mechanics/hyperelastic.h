@@ -280,9 +280,19 @@ namespace Supple
              const double added_bulk)
         : h(batch.gradients)
       {
-        ElasticTangent K = tangent;
         if (added_bulk != 0.)
-          K.add_mode(added_bulk * batch.volume * batch.mu, K.cofactor);
+          {
+            ElasticTangent stiffer = tangent;
+            stiffer.add_mode(added_bulk * batch.volume * batch.mu, tangent.cofactor);
+            set_half(stiffer, hoop_of_batch, factor);
+          }
+        else
+          set_half(tangent, hoop_of_batch, factor);
+      }
+
+      void
+      set_half(const ElasticTangent &K, const Cells::Hoop *const hoop_of_batch, const double factor)
+      {
         if constexpr (axisymmetric)
           hoop = hoop_of_batch->gradient;
         for (unsigned int c = 0; c < 4; ++c)
