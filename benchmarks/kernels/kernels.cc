@@ -133,6 +133,12 @@ namespace
       bar.set_force();
       bar.A.assemble(bar.problem.parameters.time.step);
     });
+    const auto tangent = [&](const Tangent kind) {
+      bar.problem.forces.update_tangent(kind, bar.problem.configuration, 0., bar.effort);
+      bar.A.assemble(bar.problem.parameters.time.step);
+    };
+    measure("consistent tangent", 0., n, [=] { tangent(Tangent::consistent); });
+    measure("definite tangent", 0., n, [=] { tangent(Tangent::definite); });
   }
 
 

@@ -1,5 +1,7 @@
 #include <supple/forces/elastic_force.h>
 
+#include <supple/mechanics/law_choice.h>
+
 namespace Supple
 {
   ElasticForce::ElasticForce(const Body &body,
@@ -49,11 +51,12 @@ namespace Supple
     std::vector<CellState> states = law->states(configuration.rotations, values.data());
     if (configuration.patches)
       {
-        // Quadratic cells keep a part of the resistance.
+        // Quadratic cells keep a part of the resistance, and a shear stress by energy has a mean.
+        const bool adds = body.is_quadratic() || LawChoice{law->name()}.is_hyperelastic();
         const std::vector<double> mean_stress =
           configuration.patches->mean_stress_of_cells(values.data());
         for (std::size_t c = 0; c < states.size(); ++c)
-          states[c].pressure = (body.is_quadratic() ? states[c].pressure : 0.) - mean_stress[c];
+          states[c].pressure = (adds ? states[c].pressure : 0.) - mean_stress[c];
       }
     return states;
   }

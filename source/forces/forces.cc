@@ -51,11 +51,12 @@ namespace Supple
                  const ParameterFile &scene)
     : body(body)
   {
-    auto elastic =
-      std::make_unique<ElasticForce>(body,
-                                     make_law(material.law, corotation.rotation, *body.cells),
-                                     damping.stiffness_factor);
-    of_cells = elastic.get();
+    auto elastic = std::make_unique<ElasticForce>(body,
+                                                  make_law(material.law_choice(),
+                                                           corotation.rotation,
+                                                           *body.cells),
+                                                  damping.stiffness_factor);
+    of_cells     = elastic.get();
     list.push_back(std::move(elastic));
     for (const Maker &make : load_makers)
       if (std::unique_ptr<Force> load = make(body, loads, scene))

@@ -41,6 +41,11 @@ namespace Supple
     if (base.time.problem != TimeParameters::Problem::stationary)
       throw InputError(base.origin("Time/Problem") +
                        ": an identification needs a static scene; set Problem = static.");
+    if (base.material.law_choice().is_hyperelastic())
+      throw InputError(base.origin("Material/Law") +
+                       ": an identification needs displacements that are proportional to the depth "
+                       "of the needle, and with " +
+                       base.material.law + " they are not; set Law = corotational.");
     if (base.corotation.rotation != RotationMethod::none)
       throw InputError(base.origin("Corotation/Rotation") +
                        ": an identification needs displacements that are proportional to the depth "

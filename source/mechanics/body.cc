@@ -21,6 +21,38 @@ namespace Supple
       const std::size_t sensible = std::max<std::size_t>(1, n_cells / least_cells);
       return std::min<std::size_t>(most, sensible);
     }
+
+
+    /** What a patch takes over of the resistance to a change of volume [Pa], and what the cell
+     * keeps. */
+    std::pair<double, IsotropicMaterial>
+    share_of_patch(const LawChoice &law, const IsotropicMaterial &material, const bool quadratic)
+    {
+      if (!law.is_hyperelastic())
+        return quadratic ? std::make_pair(material.lambda, material.without_lambda())
+                         : std::make_pair(material.bulk(), material.deviatoric());
+      IsotropicMaterial kept = material;
+      kept.lambda            = law.least_lambda(material);
+      if (quadratic)
+        kept.lambda += VolumetricPatches::bulk_of_quadratic_cells * material.mu;
+      return {material.lambda - kept.lambda, kept};
+    }
+
+
+    /** With a negative factor before (J - 1)^2 bodies would grow without end.
+     * @throws InputError */
+    void
+    check_law(const LawChoice &law,
+              const std::map<unsigned int, IsotropicMaterial> &materials,
+              const ParameterFile &scene)
+    {
+      for (const auto &[id, material] : materials)
+        if (law.is_hyperelastic() && material.lambda < law.least_lambda(material))
+          throw InputError(scene.origin("Material/Law") + ": " + law.name +
+                           " has no least energy at the Poisson ratio of material " +
+                           std::to_string(id) + ", " + digits(material.poisson(), 6) +
+                           ". Take a greater one, or Law = neo-hookean.");
+    }
   } // namespace
 
 
@@ -72,6 +104,8 @@ namespace Supple
       if (mesh.materials.find(id) == mesh.materials.end())
         throw InputError(scene.origin("Material/By id") + ": no cell has the material id " +
                          std::to_string(id) + ".");
+    const LawChoice law = parameters.law_choice();
+    check_law(law, materials, scene);
 
     const bool cured = parameters.cure == MaterialParameters::LockingCure::patches;
     std::vector<Cell> known_cells;
@@ -89,16 +123,14 @@ namespace Supple
         IsotropicMaterial cell_is_of = material(cell.material_id);
         if (parameters.vertex_mass > 0.)
           cell_is_of.density = 0.;
-        if (cured && is_quadratic())
+        if (cured)
           {
-            patch_cells.push_back({{}, cell.patch, cell_is_of.lambda});
-            cell_is_of = cell_is_of.without_lambda();
-          }
-        else if (cured)
-          {
-            const auto end = cell.nodes.begin() + (mesh.section.plane() ? 3 : 4);
-            patch_cells.push_back({{cell.nodes.begin(), end}, cell.patch, cell_is_of.bulk()});
-            cell_is_of = cell_is_of.deviatoric();
+            const auto [bulk, kept] = share_of_patch(law, cell_is_of, is_quadratic());
+            patch_cells.push_back({{}, cell.patch, bulk});
+            if (!is_quadratic())
+              patch_cells.back().nodes.assign(cell.nodes.begin(),
+                                              cell.nodes.begin() + (mesh.section.plane() ? 3 : 4));
+            cell_is_of = kept;
           }
         known_cells.push_back({cell.nodes, cell_is_of, cell.owned});
         cell_nodes.push_back(cell.nodes);

@@ -17,12 +17,22 @@ namespace Supple
   MaterialParameters::declare(ParameterHandler &prm)
   {
     prm.enter_subsection("Material");
+    add(
+      prm,
+      "Law",
+      law,
+      "none",
+      Range::one_of(names_of_laws()),
+      "The law by which stress follows from deformation (doc/materials.md). corotational: Hooke's "
+      "law in a frame that turns with each cell. The others are derivatives of an energy and have "
+      "no rotations that a step could hold: of Time/Method they take all but backward euler and "
+      "imex3 to imex5. The constants below are those of small strains for all of them.");
     add(prm,
-        "Law",
-        law,
+        "Mooney ratio",
+        mooney_ratio,
         "none",
-        Range::one_of(names_of_laws()),
-        "The law by which stress follows from deformation.");
+        Range::at_least(0),
+        "mooney-rivlin: c2 / c1, with 2 (c1 + c2) the shear modulus. 0 is neo-hookean.");
     declare_constants(prm);
     add(prm,
         "Density",

@@ -1,6 +1,7 @@
 #include <supple/observe/cell_stresses.h>
 
 #include <supple/mechanics/quadratic_cells.h>
+#include <supple/mechanics/rotation.h>
 
 namespace Supple
 {
@@ -40,7 +41,8 @@ namespace Supple
     const CellRotations::List &rotations = configuration.rotations.current;
     const VolumetricPatches *patches     = configuration.patches.get();
     const GhostValues u(configuration.displacement());
-    piola = law.stresses(configuration.rotations, u.data());
+    piola                   = law.stresses(configuration.rotations, u.data());
+    const bool turns_unkept = !law.is_linear() && !law.has_rotations();
     std::vector<double> mean;
     if (patches)
       mean = patches->mean_stress(u.data());
@@ -48,14 +50,16 @@ namespace Supple
     turned.resize(n_points * cells.n_cells);
     cells.for_batches([&](const std::size_t b) {
       std::vector<Matrix3<Pack>> F;
-      if (patches)
+      if (patches || turns_unkept)
         F = deformation_gradients_at_points(cells, b, u.data());
       for (unsigned int q = 0; q < n_points; ++q)
         {
           const std::size_t place = n_points * b + q;
-          Matrix3<Pack> T         = rotations.empty()
-                                      ? piola[place]
-                                      : product_with_transposed(piola[place], rotations[place]);
+          Matrix3<Pack> T         = piola[place];
+          if (!rotations.empty())
+            T = product_with_transposed(piola[place], rotations[place]);
+          else if (turns_unkept)
+            T = product_with_transposed(piola[place], rotation(RotationMethod::polar, F[q]));
           if (patches)
             {
               Pack s(0.);

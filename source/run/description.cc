@@ -143,6 +143,7 @@ namespace Supple
   Description::print(const bool in_detail) const
   {
     const Mesh &mesh                            = problem.mesh;
+    const MaterialParameters &material          = problem.parameters.material;
     const std::array<const char *, 3> rotations = {
       {"linear elasticity", "corotational, Gram-Schmidt", "corotational, polar"}};
     std::ostringstream volume;
@@ -164,7 +165,9 @@ namespace Supple
            (n_ranks == 1 ? "1 process" : std::to_string(n_ranks) + " processes"));
     line("model",
          section_in_words() +
-           rotations[static_cast<unsigned int>(problem.parameters.corotation.rotation)]);
+           (material.law_choice().is_hyperelastic()
+              ? material.law
+              : rotations[static_cast<unsigned int>(problem.parameters.corotation.rotation)]));
     line("time", time_in_words());
     if (const auto stable = integrator.stable_step())
       line("stable step", "up to " + stable->description());
@@ -209,6 +212,10 @@ namespace Supple
         "Gram-Schmidt rotations have no elastic energy: 'elastic' is the energy of the same "
         "formula, and "
         "'dissipated' need not grow. They depend on the axes.");
+    if (problem.parameters.material.law == "st venant-kirchhoff")
+      list.push_back(
+        "St. Venant-Kirchhoff's law offers less and less resistance to cells that are "
+        "crushed, so that they collapse (Material/Law); neo-hookean does not.");
     const double poisson = body.largest_poisson();
     if (poisson > 0.45 && !body.has_patches() &&
         problem.mesh.section.geometry != Geometry::plane_stress)

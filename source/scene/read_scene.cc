@@ -230,6 +230,48 @@ namespace Supple
     }
 
 
+    /** What means something for rotations alone, and a law by energy has none. */
+    void
+    check_law(const Parameters &parameters)
+    {
+      const MaterialParameters &material = parameters.material;
+      const TimeParameters &time         = parameters.time;
+      if (!material.law_choice().is_hyperelastic())
+        return;
+      const bool moves      = time.problem != TimeParameters::Problem::stationary;
+      const std::string law = " (" + parameters.origin("Material/Law") + " = " + material.law + ")";
+      const auto refuse     = [&](const std::string &entry, const std::string &words) {
+        throw InputError(parameters.origin(entry) + ": " + words);
+      };
+      if (moves && (time.method == TimeMethod::backward_euler || time.is_semi_implicit()))
+        refuse("Time/Method",
+               time.method_name() +
+                 " solves one linear system for rotations that are held, and "
+                 "this law has none" +
+                 law + ". Take " +
+                 (time.is_semi_implicit() ? "esdirk3, esdirk4 or trbdf2."
+                                          : "implicit backward euler or trbdf2."));
+      if (parameters.corotation.rotation != CorotationParameters().rotation)
+        refuse("Corotation/Rotation",
+               "this law has no rotations" + law +
+                 "; leave the entry out. Linear elasticity is Law = corotational with none.");
+      if (parameters.corotation.warp_tolerance != 0.)
+        refuse("Corotation/Warp tolerance", "this law has no rotations" + law + "; it must be 0.");
+      if (time.tangent == Tangent::frozen)
+        refuse("Time/Tangent",
+               "this law has no rotations that could be held" + law +
+                 "; it must be auto, consistent or definite.");
+      if (parameters.damping.stiffness_factor > 0.)
+        refuse("Damping/Stiffness factor",
+               "it is for stresses that are linear in the strain, and this law's are not" + law +
+                 ". Take Damping/Mass factor or Damping/Viscous.");
+      if (material.volume_measure != VolumeMeasure::determinant)
+        refuse("Material/Volume change",
+               "its trace is taken with the rotation of a cell, and this law has none" + law +
+                 "; it must be determinant.");
+    }
+
+
     void
     check(const Parameters &parameters)
     {
@@ -238,6 +280,7 @@ namespace Supple
       parameters.mesh.check(parameters.file);
       parameters.time.check(parameters.file);
       parameters.plane.check(parameters.file);
+      check_law(parameters);
       check_warp_tolerance(parameters);
       check_problem(parameters);
       check_contact(parameters);
@@ -261,6 +304,12 @@ namespace Supple
         if (unused.thickness != preset.thickness)
           throw InputError(parameters.origin("Plane/Thickness") + words);
       }
+    if (section.geometry == Geometry::plane_stress &&
+        parameters.material.law_choice().is_hyperelastic())
+      throw InputError(parameters.origin("Material/Law") + ": " + parameters.material.law +
+                       " does not know how thin a body in plane stress gets as it is stretched. "
+                       "Take Plane/Model = plane strain or axisymmetric, tetrahedra, or Law = "
+                       "corotational.");
     if (section.geometry == Geometry::plane_stress &&
         parameters.material.cure == MaterialParameters::LockingCure::patches)
       throw InputError(parameters.origin("Material/Volumetric locking cure") +

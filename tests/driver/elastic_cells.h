@@ -26,7 +26,7 @@ namespace Supple
     void
     set_method(const RotationMethod method)
     {
-      law = make_law("corotational", method, *cells);
+      law = make_law(LawChoice(), method, *cells);
     }
 
     void

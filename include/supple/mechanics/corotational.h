@@ -42,6 +42,9 @@ namespace Supple
     /** What the derivatives of the rotations add to the tangent: V R H R^T. */
     using Turning = Matrix3<Pack>;
 
+    /** A part of the tangent holds the rotation, see LawSweeps. */
+    static constexpr bool tangent_is_whole = false;
+
     RotationMethod method;
 
     static std::string

@@ -19,6 +19,8 @@ namespace Supple
       , cells(cells)
       , volume_stiffness(cells)
     {
+      if constexpr (Formulas::tangent_is_whole)
+        set_tangent_at_rest();
     }
 
     std::string
@@ -142,6 +144,8 @@ namespace Supple
                     const double *displacement,
                     const MeanStress *mean_stress)
     {
+      if constexpr (Formulas::tangent_is_whole)
+        return true;
       volume_stiffness.clear();
       if (tangent == Tangent::consistent && mean_stress &&
           mean_stress->measure == VolumeMeasure::determinant)
@@ -152,14 +156,26 @@ namespace Supple
       return turns;
     }
 
-    /** What is not the own stress of the cells of a batch at a point, in the measure `trace`. */
+    /** Whether the second derivative is clamped; where nothing of it is left with rotations held,
+     * that is what a frozen one is. */
+    static bool
+    is_definite(const Tangent tangent)
+    {
+      return tangent == Tangent::definite ||
+             (Formulas::tangent_is_whole && tangent == Tangent::frozen);
+    }
+
+    /** What is not the own stress of the cells of a batch at a point, as far as the formulas take
+     * it into the tangent: in the measure `trace`, or `determinant` where they are all of it. */
     Pack
     foreign_mean_stress(const MeanStress *mean_stress,
                         const std::size_t b,
                         const unsigned int q) const
     {
+      constexpr VolumeMeasure taken =
+        Formulas::tangent_is_whole ? VolumeMeasure::determinant : VolumeMeasure::trace;
       Pack s(0.);
-      if (mean_stress && mean_stress->measure == VolumeMeasure::trace)
+      if (mean_stress && mean_stress->measure == taken)
         cells.for_lanes(b, [&](const unsigned int lane, const std::size_t cell) {
           s[lane] = mean_stress->of_points[cells.n_points() * cell + q];
         });
@@ -225,6 +241,21 @@ namespace Supple
       });
     }
 
+    /** Of the cells of a batch at a point: how they have turned, and the stress that is drawn. */
+    struct Drawn
+    {
+      Matrix3<Pack> R, stress;
+    };
+
+    Drawn
+    drawn(const Cells::Batch &batch, const Matrix3<Pack> &R, const Matrix3<Pack> &F) const
+    {
+      if constexpr (Formulas::tangent_is_whole)
+        return {formulas.turn(F), formulas.cauchy_stress(batch, F)};
+      else
+        return {R, formulas.stress(batch, R, F)};
+    }
+
     const Formulas formulas;
     const Cells &cells;
     std::vector<typename Formulas::Turning> turning; ///< of the points; empty for frozen rotations
@@ -235,6 +266,24 @@ namespace Supple
     sweeps() const
     {
       return static_cast<const Sweeps &>(*this);
+    }
+
+    /** For those who ask before there is a deformation. */
+    void
+    set_tangent_at_rest()
+    {
+      const unsigned int n_points = cells.n_points();
+      const Matrix3<Pack> I       = Matrix3<Pack>::identity();
+      turning.resize(n_points * cells.n_batches());
+      for (std::size_t place = 0; place < turning.size(); ++place)
+        turning[place] =
+          formulas.turning(cells.is_quadratic() ? cells.point(place / n_points, place % n_points)
+                                                : cells.batch(place),
+                           I,
+                           I,
+                           I,
+                           Pack(0.),
+                           false);
     }
   };
 
@@ -258,6 +307,11 @@ namespace Supple
    *
    *   Turning, turning(batch, R, R of the strain, F, mean_stress, definite), turning_product(),
    *   turning_block(): the rest of it, which can be projected
+   *
+   *   tangent_is_whole: whether all of the tangent is in Turning, exact or definite, and nothing of
+   * it holds a rotation. Then it is a matrix of nine rows (ElasticTangent) with the mean stress of
+   * patches, Blocks is made of it, a frozen tangent is the definite one, and cauchy_stress() and
+   * turn() are for drawing. Hyperelastic is of that kind.
    *
    * Stiffness damping counts on a stress that is linear in F with R held, up to a constant.
    */
@@ -345,17 +399,18 @@ namespace Supple
                        const double *w,
                        double *y) const override
     {
-      cells.for_batches_in_turn([&](const std::size_t b) {
-        ask_for_next(rotations.current, b);
-        const Matrix3<Pack> dF = cells.gradient(b, Cells::gather(cells.batch(b), w));
-        scatter_stress<1>(b,
-                          rotations,
-                          formulas.stress_change(cells.batch(b),
-                                                 rotation_of(rotations.current, b),
-                                                 dF),
-                          factor * cells.batch(b).volume,
-                          y);
-      });
+      if constexpr (!Formulas::tangent_is_whole)
+        cells.for_batches_in_turn([&](const std::size_t b) {
+          ask_for_next(rotations.current, b);
+          const Matrix3<Pack> dF = cells.gradient(b, Cells::gather(cells.batch(b), w));
+          scatter_stress<1>(b,
+                            rotations,
+                            formulas.stress_change(cells.batch(b),
+                                                   rotation_of(rotations.current, b),
+                                                   dF),
+                            factor * cells.batch(b).volume,
+                            y);
+        });
     }
 
     void
@@ -364,17 +419,31 @@ namespace Supple
                         const double *w,
                         double *y) const override
     {
-      volume_stiffness.add_product(factor, w, y);
-      for (std::size_t b = 0; b < turning.size(); ++b)
+      if constexpr (Formulas::tangent_is_whole)
         {
-          const Cells::Batch &batch = cells.batch(b);
-          Cells::NodalPack f        = formulas.turning_product(turning[b],
-                                                        rotated_gradients(rotations, b),
-                                                        Cells::gather(batch, w));
-          for (auto &of_node : f)
-            for (Pack &component : of_node)
-              component *= factor;
-          Cells::scatter(batch, f, y);
+          cells.for_batches_in_turn([&](const std::size_t b) {
+            Matrix3<Pack> P =
+              turning[b].stress_change(cells.gradient(b, Cells::gather(cells.batch(b), w)));
+            for (Pack &entry : P.entries)
+              entry *= factor;
+            Cells::scatter(cells.batch(b), cells.divergence(b, P), y);
+          });
+          return;
+        }
+      else
+        {
+          volume_stiffness.add_product(factor, w, y);
+          for (std::size_t b = 0; b < turning.size(); ++b)
+            {
+              const Cells::Batch &batch = cells.batch(b);
+              Cells::NodalPack f        = formulas.turning_product(turning[b],
+                                                            rotated_gradients(rotations, b),
+                                                            Cells::gather(batch, w));
+              for (auto &of_node : f)
+                for (Pack &component : of_node)
+                  component *= factor;
+              Cells::scatter(batch, f, y);
+            }
         }
     }
 
@@ -477,15 +546,17 @@ namespace Supple
                                       SymmetricBlockMatrix &A,
                                       const double added_bulk) const
   {
-    const typename Formulas::template Blocks<axisymmetric> blocks(cells.batch(b),
-                                                                  axisymmetric ? &cells.hoop(b)
-                                                                               : nullptr,
-                                                                  rotated_gradients(rotations, b),
-                                                                  frozen,
-                                                                  added_bulk);
+    using Blocks                  = typename Formulas::template Blocks<axisymmetric>;
+    const Cells::Hoop *const hoop = axisymmetric ? &cells.hoop(b) : nullptr;
+    const auto blocks             = [&] {
+      if constexpr (Formulas::tangent_is_whole)
+        return Blocks(turning[b], cells.batch(b), hoop, turning_factor, added_bulk);
+      else
+        return Blocks(cells.batch(b), hoop, rotated_gradients(rotations, b), frozen, added_bulk);
+    }();
     const Pack same     = mass * cells.mass_entry(b, 0, 0);
     const Pack other    = mass * cells.mass_entry(b, 0, 1);
-    const bool turns    = !turning.empty();
+    const bool turns    = !Formulas::tangent_is_whole && !turning.empty();
     const bool swelling = !volume_stiffness.empty();
 
     const auto add_block =
@@ -496,8 +567,9 @@ namespace Supple
         else
           diagonal += a == c ? same : other;
         std::array<std::array<Pack, 3>, 3> turn, swell;
-        if (turns)
-          turn = formulas.turning_block(turning[b], blocks.h[a], blocks.h[c]);
+        if constexpr (!Formulas::tangent_is_whole)
+          if (turns)
+            turn = formulas.turning_block(turning[b], blocks.h[a], blocks.h[c]);
         if (swelling)
           swell = volume_stiffness.block(b, a, c);
         alignas(64) double block[9][n_lanes];
@@ -540,13 +612,19 @@ namespace Supple
   {
     if (!this->prepare_turning(tangent, displacement, mean_stress))
       return;
-    for (std::size_t b = 0; b < turning.size(); ++b)
+    const auto update = [&](const std::size_t b) {
       turning[b] = formulas.turning(cells.batch(b),
                                     rotation_of(rotations.current, b),
                                     rotation_of(rotations.of_strain(), b),
                                     cells.deformation_gradient(b, displacement),
                                     this->foreign_mean_stress(mean_stress, b, 0),
-                                    tangent == Tangent::definite);
+                                    this->is_definite(tangent));
+    };
+    if constexpr (Formulas::tangent_is_whole)
+      cells.for_batches(update);
+    else
+      for (std::size_t b = 0; b < turning.size(); ++b)
+        update(b);
   }
 
 
@@ -594,10 +672,13 @@ namespace Supple
       ask_for_next(rotations.current, b);
       const Matrix3<Pack> F = cells.deformation_gradient(b, displacement);
       const Matrix3<Pack> R = rotation_of(rotations.current, b);
+      auto [turn, stress]   = this->drawn(cells.batch(b), R, F);
+      if (cells.section.geometry == Geometry::plane_stress)
+        stress(2, 2) = 0.;
       this->for_states(b,
                        volume_ratio(b, R, F),
-                       R,
-                       stress_in_section(b, R, F),
+                       turn,
+                       stress,
                        [&](const std::size_t cell, unsigned int, const CellState &state) {
                          states[cell] = state;
                        });

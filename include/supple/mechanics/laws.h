@@ -2,6 +2,7 @@
 #define supple_laws_h
 
 #include <supple/mechanics/law.h>
+#include <supple/mechanics/law_choice.h>
 #include <supple/mechanics/rotation.h>
 
 #include <memory>
@@ -15,9 +16,9 @@ namespace Supple
 
 
   /** The law of this name for these cells, which must outlive it. The name must be one of the list.
-   */
+   * @param rotation of the corotational law; others have none */
   std::unique_ptr<Law>
-  make_law(const std::string &name, RotationMethod rotation, const Cells &cells);
+  make_law(const LawChoice &choice, RotationMethod rotation, const Cells &cells);
 } // namespace Supple
 
 #endif

@@ -2,6 +2,7 @@
 #define supple_material_parameters_h
 
 #include <supple/input/parameter_file.h>
+#include <supple/mechanics/law_choice.h>
 #include <supple/mechanics/material.h>
 #include <supple/mechanics/rotation.h>
 
@@ -35,8 +36,9 @@ namespace Supple
     double mu                    = 1e6;
     double density               = 1000.;
     bool lumped                  = false;
-    double vertex_mass           = 0.; ///< [kg]; if positive, densities count for nothing
-    std::string by_id;                 ///< as written
+    double mooney_ratio          = 0.25; ///< c2 / c1 of the law mooney-rivlin
+    double vertex_mass           = 0.;   ///< [kg]; if positive, densities count for nothing
+    std::string by_id;                   ///< as written
 
     void
     declare(dealii::ParameterHandler &prm);
@@ -44,6 +46,13 @@ namespace Supple
     /** @throws InputError for a material without resistance to pressure */
     void
     check(const ParameterFile &scene) const;
+
+    /** The law with its constants beside those of the material. */
+    LawChoice
+    law_choice() const
+    {
+      return {law, mooney_ratio};
+    }
 
     /** What holds for cells whose material id is not in the list below. */
     IsotropicMaterial

@@ -90,14 +90,15 @@ namespace Supple
                        const double *w,
                        double *y) const override
     {
-      scatter_stresses<1>(
-        rotations,
-        w,
-        factor,
-        [this](const Batch &point, const auto &R, const NodalPack &W) {
-          return formulas.stress_change(point, R, Quadratic::gradient(point, W));
-        },
-        y);
+      if constexpr (!Formulas::tangent_is_whole)
+        scatter_stresses<1>(
+          rotations,
+          w,
+          factor,
+          [this](const Batch &point, const auto &R, const NodalPack &W) {
+            return formulas.stress_change(point, R, Quadratic::gradient(point, W));
+          },
+          y);
     }
 
     void
@@ -271,7 +272,7 @@ namespace Supple
                              rotation_of(rotations.of_strain(), n_points * b + q),
                              deformation_gradient(point, W[q]),
                              this->foreign_mean_stress(mean_stress, b, q),
-                             tangent == Tangent::definite);
+                             this->is_definite(tangent));
         }
     });
   }
@@ -293,7 +294,12 @@ namespace Supple
         {
           const std::size_t place = n_points * b + q;
           const Batch point       = cells.point(b, q);
-          if (!turning.empty())
+          if constexpr (Formulas::tangent_is_whole)
+            f[q] =
+              Quadratic::divergence(point,
+                                    turning[place].stress_change(Quadratic::gradient(point, W[q])),
+                                    Pack(1.));
+          else if (!turning.empty())
             f[q] = formulas.turning_product(turning[place],
                                             rotated_gradients(rotations, place, point),
                                             W[q]);
@@ -325,16 +331,24 @@ namespace Supple
                                                const double added_bulk,
                                                CornerBlocks &K) const
   {
-    const typename Formulas::template Blocks<false> blocks(
-      point, nullptr, rotated_gradients(rotations, place, point), frozen, added_bulk);
-    const bool turns = !turning.empty(), swells = !volume_stiffness.empty();
+    using Blocks      = typename Formulas::template Blocks<false>;
+    const auto blocks = [&] {
+      if constexpr (Formulas::tangent_is_whole)
+        return Blocks(turning[place], point, nullptr, turning_factor, added_bulk);
+      else
+        return Blocks(
+          point, nullptr, rotated_gradients(rotations, place, point), frozen, added_bulk);
+    }();
+    const bool turns  = !Formulas::tangent_is_whole && !turning.empty();
+    const bool swells = !volume_stiffness.empty();
     for (unsigned int k = 0; k < 4; ++k)
       for (unsigned int l = 0; l <= k; ++l)
         {
           const Pack diagonal = blocks.shear(k, l);
           std::array<std::array<Pack, 3>, 3> turn, swell;
-          if (turns)
-            turn = formulas.turning_block(turning[place], blocks.h[k], blocks.h[l]);
+          if constexpr (!Formulas::tangent_is_whole)
+            if (turns)
+              turn = formulas.turning_block(turning[place], blocks.h[k], blocks.h[l]);
           if (swells)
             swell = swelling_block(place, point, k, l);
           for (unsigned int i = 0; i < 3; ++i)
@@ -517,10 +531,11 @@ namespace Supple
           const Pack part       = point.volume / cells.batch(b).volume;
           const Matrix3<Pack> F = deformation_gradient(point, W[q]);
           const Matrix3<Pack> R = rotation_of(rotations.current, n_points * b + q);
+          const auto drawn      = this->drawn(point, R, F);
           this->for_states(b,
                            determinant(F),
-                           R,
-                           formulas.stress(point, R, F),
+                           drawn.R,
+                           drawn.stress,
                            [&](const std::size_t cell,
                                const unsigned int lane,
                                const CellState &state) {
