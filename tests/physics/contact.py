@@ -152,7 +152,12 @@ def friction():
 def trouble():
     """What friction makes hard to find is told, and what can't be found at all is told by its names and places, with all files."""
     hard = {"Tool floor/Friction": 0.3, "Time/Steps": 12}
-    words = " ".join(simulate(CUBE, {**hard, "Contact/Slip resolution": 1e-5, "Time/Newton iterations": 30}).summary()["warnings"])
+    # Whether such steps are found in the end is a matter of round-off; the warning is not.
+    results = folder / "hard"
+    status, _, error = runner.run(CUBE, "--quiet", "--output", results,
+                                  *runner.overrides({**hard, "Contact/Slip resolution": 1e-5, "Time/Newton iterations": 30}))
+    runner.check(status == 0 or status == 2 and "the least gap" in error, f"{status}: {error}")
+    words = " ".join(runner.Results(results).summary()["warnings"])
     runner.check("Friction makes steps hard to find" in words and "Contact/Slip resolution is 1e-05 m/s" in words, f"no warning of friction: {words}")
     words = " ".join(simulate(CUBE, {**hard, "Contact/Slip resolution": 0.1}).summary()["warnings"])
     runner.check("Friction makes" not in words, f"a warning of friction that is easy: {words}")
