@@ -68,13 +68,11 @@ namespace Supple
     }
 
 
-    /** Whether an entry matters to this scene, so that the page shows it. */
+    /** Whether an entry that may be set matters to this scene, so that the page shows it. */
     bool
     is_shown(const std::string &entry, const Parameters &scene)
     {
       const bool variable = scene.time.has_variable_steps();
-      if (!may_be_set(entry))
-        return false;
       if (entry == "Time/Step")
         return !variable;
       if (entry == "Time/Relative tolerance")
@@ -107,9 +105,10 @@ namespace Supple
     }
 
 
-    /** Those that the page shows, with their values in the scene as they are written there. */
-    Json
-    entries_of(const Parameters &scene)
+    /** The entries that a session may set, with what deal.II's JSON says of them. It takes
+     * milliseconds. */
+    std::vector<std::pair<std::string, nlohmann::json>>
+    declared_entries(const Parameters &scene)
     {
       Parameters presets;
       for (const ToolParameters &tool : scene.tools)
@@ -122,14 +121,26 @@ namespace Supple
       std::ostringstream text;
       prm.print_parameters(text, dealii::ParameterHandler::JSON);
       const nlohmann::json all = nlohmann::json::parse(text.str());
-      Json entries             = Json::array();
+      std::vector<std::pair<std::string, nlohmann::json>> entries;
       for (const auto &section : all.items())
         for (const auto &entry : section.value().items())
           {
             const std::string name = plain_name(section.key()) + "/" + plain_name(entry.key());
-            if (entry.value().contains("value") && is_shown(name, scene))
-              entries.push_back(describe(name, entry.value(), scene.file.value(name)));
+            if (entry.value().contains("value") && may_be_set(name))
+              entries.emplace_back(name, entry.value());
           }
+      return entries;
+    }
+
+
+    /** Those that the page shows, with their values in the scene as they are written there. */
+    Json
+    entries_of(const Parameters &scene)
+    {
+      Json entries = Json::array();
+      for (const auto &[name, declared] : declared_entries(scene))
+        if (is_shown(name, scene))
+          entries.push_back(describe(name, declared, scene.file.value(name)));
       return entries;
     }
 
@@ -144,24 +155,16 @@ namespace Supple
     Json
     describe(const Tool &tool, const double extent, const double time)
     {
-      const TriangleMesh surface = drawn_surface(tool, extent);
-      Json points = Json::array(), corners = Json::array(), axis;
-      for (const auto &place : surface.points)
-        for (const double x : place)
-          points.push_back(brief_number(x));
-      for (const auto &triangle : surface.triangles)
-        for (const unsigned int corner : triangle)
-          corners.push_back(corner);
+      Json axis;
       const Pose pose = tool.pose(time);
       if (tool.is_plane())
         axis = arrow(pose.turned(tool.parameters.normal / tool.parameters.normal.norm()));
       else if (tool.parameters.shape == ToolParameters::Shape::capsule)
         axis = arrow(pose.turned(tool.parameters.axis / tool.parameters.axis.norm()));
-      return {{"name", tool.parameters.name},
-              {"points", points},
-              {"triangles", corners},
-              {"axis", axis},
-              {"place", arrow(pose.place)}};
+      Json description     = surface_of(tool, extent);
+      description["axis"]  = axis;
+      description["place"] = arrow(pose.place);
+      return description;
     }
 
 
@@ -250,12 +253,23 @@ namespace Supple
   }
 
 
+  std::vector<std::string>
+  names_of_entries(const Parameters &scene)
+  {
+    std::vector<std::string> names;
+    for (const auto &[name, declared] : declared_entries(scene))
+      names.push_back(name);
+    return names;
+  }
+
+
   Json
-  values_of_entries(const Parameters &scene)
+  values_of_entries(const std::vector<std::string> &names, const Parameters &scene)
   {
     Json values = Json::object();
-    for (const Json &entry : entries_of(scene))
-      values[entry.at("entry").get<std::string>()] = entry.at("value");
+    for (const std::string &name : names)
+      if (is_shown(name, scene))
+        values[name] = scene.file.value(name);
     return values;
   }
 

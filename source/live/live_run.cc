@@ -127,6 +127,7 @@ namespace Supple
     , root(Utilities::MPI::this_mpi_process(communicator) == 0)
     , talks(root && !quiet)
     , watcher(std::make_unique<Watcher>())
+    , entry_names(names_of_entries(first))
   {
     const std::string left_out = what_is_left_out(scene_at_start);
     if (talks && !left_out.empty())
@@ -628,7 +629,7 @@ namespace Supple
           {"time", session->now().time()},
           {"step", session->now().measurement().step},
           {"session", session_number},
-          {"entries", values_of_entries(parameters)},
+          {"entries", values_of_entries(entry_names, parameters)},
           {"method", parameters.time.method_name()},
           {"step_size", parameters.time.has_variable_steps() ? Json() : Json(parameters.time.step)},
           {"held", held},

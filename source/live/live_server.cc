@@ -6,10 +6,8 @@
 #include <boost/beast.hpp>
 #include <boost/beast/websocket.hpp>
 
-#include <atomic>
 #include <cctype>
 #include <cstdio>
-#include <ctime>
 #include <deque>
 #include <functional>
 #include <optional>
@@ -325,10 +323,7 @@ namespace Supple
         });
       };
       accept();
-      worker = std::thread([this] {
-        io.run();
-        used = processor_seconds();
-      });
+      worker = std::thread([this] { io.run(); });
     }
 
     ~Thread()
@@ -353,21 +348,7 @@ namespace Supple
       return "http://" + host + "/?token=" + token;
     }
 
-    double
-    seconds() const
-    {
-      return used;
-    }
-
   private:
-    static double
-    processor_seconds()
-    {
-      timespec time{};
-      clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-      return time.tv_sec + 1e-9 * time.tv_nsec;
-    }
-
     void
     accept()
     {
@@ -384,7 +365,6 @@ namespace Supple
               open->start(std::move(request));
             })
             ->start();
-        used = processor_seconds();
         if (!error)
           {
             accept();
@@ -463,7 +443,6 @@ namespace Supple
     const std::string token;
     std::string host;
     std::weak_ptr<LiveSocket> socket;
-    std::atomic<double> used{0.};
     std::thread worker;
   };
 
@@ -483,10 +462,4 @@ namespace Supple
     return thread->address();
   }
 
-
-  double
-  LiveServer::seconds() const
-  {
-    return thread->seconds();
-  }
 } // namespace Supple

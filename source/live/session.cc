@@ -164,9 +164,7 @@ namespace Supple
               for_session(read(trial.overrides()));
             Parameters scene = first;
             trial.put_into(scene);
-            for (const auto &[vertex, grab] : trial.grabs())
-              for (const Pull::End &end : grab.ends)
-                require_vertex(end.vertex);
+            require_vertices(trial);
             for (const auto &[vertex, path] : trial.holds())
               require_free(vertex);
             if (thoroughly && effect == Hands::Effect::changes)
@@ -268,9 +266,19 @@ namespace Supple
 
 
   void
+  Session::require_vertices(const Hands &of_hands) const
+  {
+    for (const auto &[vertex, grab] : of_hands.grabs())
+      for (const Pull::End &end : grab.ends)
+        require_vertex(end.vertex);
+    for (const auto &[vertex, path] : of_hands.holds())
+      require_vertex(vertex);
+  }
+
+
+  void
   Session::require_free(const unsigned int vertex) const
   {
-    require_vertex(vertex);
     const Problem &problem = simulation->present();
     unsigned int held      = 0;
     if (const auto own = own_nodes.find(vertex); own != own_nodes.end())
@@ -295,11 +303,7 @@ namespace Supple
         hands.swap(trial);
         try
           {
-            for (const auto &[vertex, grab] : hands.grabs())
-              for (const Pull::End &end : grab.ends)
-                require_vertex(end.vertex);
-            for (const auto &[vertex, path] : hands.holds())
-              require_vertex(vertex);
+            require_vertices(hands);
             renew();
           }
         catch (const InputError &)

@@ -101,6 +101,8 @@ namespace Supple
       check_adaptation(scene, communicator);
       return scene;
     }
+
+
     /** What was done by hand in a live session, once more. */
     void
     run_or_check_replay(const CommandLine &line,
@@ -120,6 +122,8 @@ namespace Supple
       else
         replay.check();
     }
+
+
     void
     live_run(const CommandLine &line, const MPI_Comm communicator)
     {

@@ -1,5 +1,7 @@
 // The surface of a body in a live session, and the frames in which it moves.
 
+import {boxOf} from './surface.js';
+
 const MAGIC = 0x4c505553; // "SUPL"
 const HEADER = 64; // bytes
 const POSE = 24; // bytes of a tool: place and turn
@@ -35,18 +37,7 @@ export class LiveSurface {
     this.scale = 0;
     this.farthest = 0;
     this.farthestNow = 0;
-    this.measure();
-  }
-
-  measure() {
-    this.low = [Infinity, Infinity, Infinity];
-    this.high = [-Infinity, -Infinity, -Infinity];
-    this.rest.forEach((x, i) => {
-      this.low[i % 3] = Math.min(this.low[i % 3], x);
-      this.high[i % 3] = Math.max(this.high[i % 3], x);
-    });
-    this.extent = this.high.map((high, d) => high - this.low[d]);
-    this.diameter = Math.hypot(...this.extent);
+    Object.assign(this, boxOf(this.rest));
   }
 
   /** The newest frame is what is shown. */

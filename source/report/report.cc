@@ -156,8 +156,7 @@ namespace Supple
       Json list = Json::array();
       for (const Tool &tool : tools)
         {
-          const TriangleMesh surface = drawn_surface(tool, extent);
-          Json poses                 = Json::array();
+          Json poses = Json::array();
           for (const Json &time : times)
             {
               const Pose pose = tool.pose(time.get<double>());
@@ -165,21 +164,27 @@ namespace Supple
                 for (unsigned int i = 0; i < 3; ++i)
                   poses.push_back(brief_number(vector[i]));
             }
-          Json points = Json::array(), corners = Json::array();
-          for (const auto &place : surface.points)
-            for (const double x : place)
-              points.push_back(brief_number(x));
-          for (const auto &triangle : surface.triangles)
-            for (const unsigned int corner : triangle)
-              corners.push_back(corner);
-          list.push_back({{"name", tool.parameters.name},
-                          {"points", points},
-                          {"triangles", corners},
-                          {"poses", poses}});
+          list.push_back(surface_of(tool, extent));
+          list.back()["poses"] = poses;
         }
       return list;
     }
   } // namespace
+
+
+  Json
+  surface_of(const Tool &tool, const double extent)
+  {
+    const TriangleMesh surface = drawn_surface(tool, extent);
+    Json points = Json::array(), corners = Json::array();
+    for (const auto &place : surface.points)
+      for (const double x : place)
+        points.push_back(brief_number(x));
+    for (const auto &triangle : surface.triangles)
+      for (const unsigned int corner : triangle)
+        corners.push_back(corner);
+    return {{"name", tool.parameters.name}, {"points", points}, {"triangles", corners}};
+  }
 
 
   std::string

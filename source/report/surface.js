@@ -23,6 +23,17 @@ async function unpack(stream, length) {
 /** Fields of the triangles, in the order in which a frame has them; the last two are not in all pages. */
 const FIELDS = ['volume_ratio', 'von_mises_stress', 'contact_pressure', 'error_in_space'];
 
+/** Of places, three numbers each: the corners of their box, how long that is, and its diagonal. */
+export function boxOf(places) {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  places.forEach((x, i) => {
+    low[i % 3] = Math.min(low[i % 3], x);
+    high[i % 3] = Math.max(high[i % 3], x);
+  });
+  const extent = high.map((most, d) => most - low[d]);
+  return {low, high, extent, diameter: Math.hypot(...extent)};
+}
+
 export class Surface {
   /** @throws where the browser can't unpack the frames */
   static async read(description, text) {
@@ -55,14 +66,7 @@ export class Surface {
 
   /** Extent at rest, farthest motion, and the box that all frames lie in, for any enlargement. */
   measure() {
-    this.low = [Infinity, Infinity, Infinity];
-    this.high = [-Infinity, -Infinity, -Infinity];
-    this.rest.forEach((x, i) => {
-      this.low[i % 3] = Math.min(this.low[i % 3], x);
-      this.high[i % 3] = Math.max(this.high[i % 3], x);
-    });
-    this.extent = this.high.map((high, d) => high - this.low[d]);
-    this.diameter = Math.hypot(...this.extent);
+    Object.assign(this, boxOf(this.rest));
 
     const scale = this.largest_displacement / 32767;
     this.farthest = 0;

@@ -18,9 +18,14 @@ namespace Supple
   live_content(const Session &session, const BodySurface &surface);
 
 
-  /** The values of the entries that the page shows, by their names. */
+  /** The entries that a session of this scene may set. */
+  std::vector<std::string>
+  names_of_entries(const Parameters &scene);
+
+
+  /** The values of those that the page shows, by their names. */
   nlohmann::ordered_json
-  values_of_entries(const Parameters &scene);
+  values_of_entries(const std::vector<std::string> &names, const Parameters &scene);
 
 
   /** A frame: what the page needs to draw the body, as source/report/live_socket.js reads it. */

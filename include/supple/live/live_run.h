@@ -134,7 +134,8 @@ namespace Supple
     const std::string folder;
     const MPI_Comm communicator;
     const bool root, talks;
-    const std::unique_ptr<Listener> watcher; ///< has energies measured whatever is written
+    const std::unique_ptr<Listener> watcher;    ///< has energies measured whatever is written
+    const std::vector<std::string> entry_names; ///< that may be set
     std::unique_ptr<Session> session;
     std::unique_ptr<BodySurface> surface;
     Mailbox mailbox;                                          ///< on the first process

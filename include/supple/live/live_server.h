@@ -42,10 +42,6 @@ namespace Supple
     std::string
     address() const;
 
-    /** Seconds of processor time that the thread has used. */
-    double
-    seconds() const;
-
   private:
     class Thread;
 

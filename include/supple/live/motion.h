@@ -29,7 +29,6 @@ namespace Supple
   /** Such a line. */
   std::string
   line_of(const Deed &deed);
-
 } // namespace Supple
 
 #endif

@@ -178,7 +178,11 @@ namespace Supple
     void
     require_vertex(unsigned int vertex) const;
 
-    /** The same, and if the scene holds it. */
+    /** The same of all that hands have. */
+    void
+    require_vertices(const Hands &of_hands) const;
+
+    /** @throws InputError if the scene holds this vertex */
     void
     require_free(unsigned int vertex) const;
 

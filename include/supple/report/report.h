@@ -22,6 +22,12 @@ namespace Supple
   upward(const Parameters &parameters);
 
 
+  /** The surface of a tool in its frame, as pages draw it: name, points [m], triangles.
+   * @param extent with which planes are drawn [m] */
+  nlohmann::ordered_json
+  surface_of(const Tool &tool, double extent);
+
+
   /**
    * Writes report.html, the page of a run that needs no network: from the tables in the folder, the
    * film, the summary and the parameters. Where there is more than a page can show, tables are
